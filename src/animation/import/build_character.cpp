@@ -33,8 +33,6 @@ namespace {
 
 // Scale that a joint has in a pose but not in the bind pose is dropped; below this share nobody sees it.
 constexpr double kVisibleScale = 0.01;
-// From here on a whole pose's scale is that of another unit.
-constexpr double kAnotherUnit = 0.05;
 constexpr std::size_t kFewestJointsOfFigure = 8;
 
 // The root of the part of the tree that holds most joints: leaves out cameras, lights and helpers beside the figure, of

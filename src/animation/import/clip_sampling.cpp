@@ -350,7 +350,7 @@ struct ClipScales {
 double commonScale(const ClipFile& file, std::span<const dmat4> sceneFromNode, const std::string& name,
                    ClipScales& scales) {
     const double scale = file.poser.commonScale(sceneFromNode, file.matters());
-    if (std::abs(scale - 1.0) <= 0.05) return 1.0;
+    if (std::abs(scale - 1.0) <= kAnotherUnit) return 1.0;
     scales.resized.push_back(fmt::format("'{}'", name));
     scales.least = std::min(scales.least, scale);
     scales.most = std::max(scales.most, scale);

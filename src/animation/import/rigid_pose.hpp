@@ -7,6 +7,9 @@
 
 namespace lutka::animation::rig_import {
 
+/// From this far from 1 on the scale of a whole pose (RigidPoser::commonScale) is that of another unit.
+inline constexpr double kAnotherUnit = 0.05;
+
 /// Turns scenes' poses, with whatever scale and shear they hold, into rigid joint frames in model space.
 ///
 /// A pose moves what is bound to a joint by D = sceneFromJoint * inverse(bind), seen in model space. The joint's rigid

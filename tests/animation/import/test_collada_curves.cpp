@@ -7,6 +7,8 @@
 
 #include "animation/import/assimp/collada_curves.hpp"
 #include "animation/import/assimp/collada_ids.hpp"
+#include "animation/import/assimp/collada_links.hpp"
+#include "animation/import/assimp/collada_targets.hpp"
 #include "support/catch.hpp"
 
 using namespace lutka;
@@ -82,6 +84,44 @@ TEST_CASE("a Collada spline follows its tangents, be its segments of different k
         CHECK(values[i] == Approx(there).margin(5e-3));
     }
     CHECK(values.back() == 4.0);
+}
+
+TEST_CASE("a Collada curve of Hermite's kind leaves and reaches its keys along its tangents") {
+    // From 0 to 10 in the first second, along tangents of a second's way and 6 up, and 0 up.
+    std::string curve = curveOf("HERMITE HERMITE LINEAR", kTangents);
+    const auto give = [&](const std::string& from, const std::string& to) {
+        const std::size_t place = curve.find(from);
+        REQUIRE(place != std::string::npos);
+        curve.replace(place, from.size(), to);
+    };
+    give("-1 0 0.6 10 1.2 4", "1 0 1 0 0.5 0");
+    give("0.4 0 1.3 10 2 4", "1 6 0.5 0 1 0");
+    const std::string text = rig_import::straightenedCollada(curve).text;
+    const std::vector<double> times = numbersOf(text, "s-times");
+    const std::vector<double> values = numbersOf(text, "s-values");
+    REQUIRE(times.size() == values.size());
+    REQUIRE(times.size() > 60);
+    for (std::size_t i = 0; i < 60; ++i) {
+        const double t = times[i];
+        INFO(t);
+        CHECK(values[i] == Approx(10 * (3 * t * t - 2 * t * t * t) + 6 * (t * t * t - 2 * t * t + t)).margin(1e-5));
+    }
+}
+
+TEST_CASE("a Collada channel may name the angle of a rotation by its place or in small letters") {
+    const std::string start =
+        "<node id=\"A\"><rotate sid=\"r\">0 0 1 0</rotate><matrix sid=\"m\"/><translate sid=\"t\"/></node>";
+    const auto plain = [&](const std::string& target) {
+        const std::string text =
+            rig_import::withPlainTargets(start + "<channel source=\"#s\" target=\"" + target + "\"/>");
+        const std::size_t place = text.find("target=\"") + 8;
+        return text.substr(place, text.find('"', place) - place);
+    };
+    CHECK(plain("A/r(3)") == "A/r.ANGLE");
+    CHECK(plain("A/r.angle") == "A/r.ANGLE");
+    CHECK(plain("A/t.x") == "A/t.X");
+    for (const char* kept : {"A/r.ANGLE", "A/m(3)", "A/m(3)(0)", "A/t(0)", "A/r", "A.B/r", "A(3)", ""})
+        CHECK(plain(kept) == kept);
 }
 
 TEST_CASE("tangents of a Collada spline that are values alone stand at thirds of the way") {
@@ -225,4 +265,25 @@ TEST_CASE("Collada's curves are read whole or not at all") {
         CHECK(rig_import::straightenedCollada(withValues(values)).text == withValues(values));
     const std::string cut = curveOf("STEP <!-- and --> STEP STEP", "");
     CHECK(rig_import::straightenedCollada(cut).text == cut);
+}
+
+TEST_CASE("Collada curves that stay straight though they bend are told, and skins of several skeletons") {
+    const auto holds = [](const std::string& kinds) {
+        const std::string text = curveOf(kinds, "");
+        return rig_import::holdsOtherCurves(rig_import::ColladaDocument(text));
+    };
+    CHECK(holds("LINEAR CARDINAL LINEAR"));
+    CHECK(holds("BSPLINE BSPLINE BSPLINE"));
+    CHECK_FALSE(holds("LINEAR HERMITE BEZIER"));
+    const auto shares = [](const std::string& first, const std::string& second) {
+        const auto instance = [](const std::string& roots) {
+            return "<instance_controller url=\"#c\">" + roots + "</instance_controller>";
+        };
+        const std::string text = "<node>" + instance(first) + "</node><node>" + instance(second) + "</node>";
+        return rig_import::sharesSkin(rig_import::ColladaDocument(text));
+    };
+    CHECK(shares("<skeleton>#a</skeleton>", "<skeleton>#b</skeleton>"));
+    CHECK_FALSE(shares("<skeleton>#a</skeleton>", "<skeleton>#a</skeleton>"));
+    CHECK_FALSE(shares("<skeleton>#a</skeleton><skeleton>#b</skeleton>", "<skeleton>#a</skeleton>"));
+    CHECK_FALSE(shares("", "<skeleton>#a</skeleton>"));
 }

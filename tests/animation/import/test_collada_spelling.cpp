@@ -98,3 +98,16 @@ TEST_CASE("pictures of Collada 1.5 are found") {
     REQUIRE(character.meshes.size() == 1);
     CHECK(character.materials[static_cast<std::size_t>(character.meshes[0].material)].baseColorTexture == 0);
 }
+
+TEST_CASE("Collada weights on the bind shape itself are left out, and all others stay whole") {
+    const auto tidied = [](const std::string& inputs, const std::string& pairs) {
+        return rig_import::tidyCollada("<COLLADA><skin><vertex_weights count=\"3\">" + inputs +
+                                       "<vcount>2 1\n2</vcount><v>" + pairs + "</v></vertex_weights></skin></COLLADA>");
+    };
+    const std::string usual = "<input semantic=\"JOINT\" offset=\"0\"/><input semantic=\"WEIGHT\" offset=\"1\"/>";
+    const std::string turned = "<input semantic=\"WEIGHT\" offset=\"0\"/><input semantic=\"JOINT\" offset=\"1\"/>";
+    const std::string wanted = "<vcount>1 0 2</vcount><v>4 1 3 4 2 5</v>";
+    CHECK(tidied(usual, "-1 0 4 1 -1 3 3 4\t2 5").find(wanted) != std::string::npos);
+    CHECK(tidied(turned, "0 -1 1 4 3 -1 4 3 5 2").find(wanted) != std::string::npos);
+    CHECK(tidied(usual, "0 0 4 1 1 3 3 4 2 5").find("<v>0 0 4 1 1 3 3 4 2 5</v>") != std::string::npos);
+}

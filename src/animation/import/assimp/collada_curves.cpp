@@ -77,8 +77,9 @@ std::map<std::string, Source> sourcesOf(std::string_view text, const std::vector
         if (tag.opens("float_array")) source->numbers = numbersIn(inside);
         if (tag.opens("Name_array")) {
             source->names = splitWords(inside);
-            source->bends = std::any_of(source->names.begin(), source->names.end(),
-                                        [](std::string_view name) { return name == "STEP" || name == "BEZIER"; });
+            source->bends = std::any_of(source->names.begin(), source->names.end(), [](std::string_view name) {
+                return name == "STEP" || name == "BEZIER" || name == "HERMITE";
+            });
         }
         if (tag.opens("accessor")) {
             const std::string_view stride = colladaAttribute(tag.text, "stride");
@@ -116,7 +117,7 @@ struct Curve {
         const auto fits = [&](const Source* tangents) {
             return tangents != nullptr && tangents->numbers.size() >= times->size() * width();
         };
-        return kindOf(key) == "BEZIER" && fits(in) && fits(out);
+        return (kindOf(key) == "BEZIER" || kindOf(key) == "HERMITE") && fits(in) && fits(out);
     }
     [[nodiscard]] std::string_view kindOf(std::size_t key) const {
         return kinds != nullptr ? (*kinds)[key] : std::string_view("LINEAR");
@@ -134,6 +135,19 @@ struct Curve {
         double time = 0.0;
         double value = 0.0;
     };
+    // The inner points of the Bezier curve from a key to the next. Hermite's tangents are three times the way there.
+    [[nodiscard]] Point leaving(std::size_t key, std::size_t component, double start, double end) const {
+        const double third = (end - start) / 3.0;
+        if (kindOf(key) != "HERMITE") return tangent(*out, key, component, start + third);
+        const Point way = tangent(*out, key, component, 3.0 * third);
+        return {start + way.time / 3.0, value(key, component) + way.value / 3.0};
+    }
+    [[nodiscard]] Point arriving(std::size_t key, std::size_t component, double start, double end) const {
+        const double third = (end - start) / 3.0;
+        if (kindOf(key) != "HERMITE") return tangent(*in, key + 1, component, end - third);
+        const Point way = tangent(*in, key + 1, component, 3.0 * third);
+        return {end - way.time / 3.0, value(key + 1, component) - way.value / 3.0};
+    }
     [[nodiscard]] Point tangent(const Source& tangents, std::size_t key, std::size_t component, double third) const {
         const std::size_t place = key * width() + component;
         if (!hasTimes(tangents)) return {third, tangents.numbers[place]};
@@ -191,8 +205,8 @@ void addBetween(const Curve& curve, std::size_t key, Pieces& pieces, std::size_t
                 pieces.values.push_back(curve.value(key, c) + share * (curve.value(key + 1, c) - curve.value(key, c)));
                 continue;
             }
-            const Curve::Point out = curve.tangent(*curve.out, key, c, start + (end - start) / 3.0);
-            const Curve::Point in = curve.tangent(*curve.in, key + 1, c, end - (end - start) / 3.0);
+            const Curve::Point out = curve.leaving(key, c, start, end);
+            const Curve::Point in = curve.arriving(key, c, start, end);
             pieces.values.push_back(
                 bezierAt({start, std::clamp(out.time, start, end), std::clamp(in.time, start, end), end},
                          {curve.value(key, c), out.value, in.value, curve.value(key + 1, c)}, time));
@@ -264,9 +278,20 @@ std::string straightSampler(const std::string& id, const std::map<std::string, s
 
 }  // namespace
 
+bool holdsOtherCurves(const ColladaDocument& document) {
+    for (std::size_t i = 0; i + 1 < document.tags.size(); ++i) {
+        const ColladaTag& tag = document.tags[i];
+        if (!tag.opens("Name_array")) continue;
+        const std::string_view inside = document.text.substr(tag.end, document.tags[i + 1].start - tag.end);
+        if (inside.find("CARDINAL") != std::string_view::npos || inside.find("BSPLINE") != std::string_view::npos)
+            return true;
+    }
+    return false;
+}
+
 StraightenedCollada straightenedCollada(std::string text) {
     const auto holds = [&](const char* word) { return text.find(word) != std::string::npos; };
-    if (!holds("BEZIER") && !holds("STEP") && !holds(".ANGLE\"")) return {std::move(text)};
+    if (!holds("BEZIER") && !holds("HERMITE") && !holds("STEP") && !holds(".ANGLE\"")) return {std::move(text)};
     const std::vector<ColladaTag> tags = colladaTags(text);
     const std::map<std::string, Source> sources = sourcesOf(text, tags);
     const std::set<std::string> angles = angleSamplers(tags);

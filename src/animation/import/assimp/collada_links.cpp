@@ -189,6 +189,22 @@ bool holdsMorphs(const ColladaDocument& document) {
     return false;
 }
 
+bool sharesSkin(const ColladaDocument& document) {
+    std::map<std::string, std::string> skeletonOf;  // the first that is named, by controller
+    std::string controller;
+    for (std::size_t i = 0; i + 1 < document.tags.size(); ++i) {
+        const ColladaTag& tag = document.tags[i];
+        if (tag.opens("instance_controller")) controller = tag.target("url");
+        if (tag.closes("instance_controller")) controller.clear();
+        if (controller.empty() || !tag.opens("skeleton")) continue;
+        const std::size_t next = document.tags[i + 1].start;
+        const auto [known, isNew] = skeletonOf.try_emplace(controller, document.text.substr(tag.end, next - tag.end));
+        if (!isNew && known->second != document.text.substr(tag.end, next - tag.end)) return true;
+        controller.clear();  // a skin may have several
+    }
+    return false;
+}
+
 std::string linkedCollada(std::string text) {
     if (mentions(text, "<morph")) text = withoutMorphs(text);
     if (mentions(text, "<library_nodes") && mentions(text, "<channel")) text = LibraryNodes(text).moved();

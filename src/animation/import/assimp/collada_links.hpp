@@ -14,4 +14,7 @@ namespace lutka::animation::rig_import {
 /// Whether a document's morph targets are on from the start: a weight is not 0.
 [[nodiscard]] bool holdsMorphs(const ColladaDocument& document);
 
+/// Whether a document shows one skin several times, with other skeletons each time: Assimp binds all to the first.
+[[nodiscard]] bool sharesSkin(const ColladaDocument& document);
+
 }  // namespace lutka::animation::rig_import

@@ -135,6 +135,39 @@ std::string orderedWeights(std::string_view text, const WeightOrder& order) {
     return out;
 }
 
+struct Weights {
+    std::string counts;  // of pairs, one a vertex
+    std::string pairs;   // of joint and weight
+};
+
+// Without the pairs whose joint is -1, the bind shape itself: Assimp takes the number for two, so that all later pairs
+// are torn apart. A vertex that has no other is left without weights.
+Weights withoutBindShape(std::string_view counts, std::string_view pairs) {
+    Weights out;
+    const auto next = [](std::string_view& text) {
+        text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
+        const std::string_view word = text.substr(0, text.find_first_of(kBlanks));
+        text.remove_prefix(word.size());
+        return word;
+    };
+    for (std::string_view word = next(counts); !word.empty(); word = next(counts)) {
+        std::size_t count = 0;
+        std::from_chars(word.data(), word.data() + word.size(), count);
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < count && !pairs.empty(); ++i) {
+            const std::string_view joint = next(pairs);
+            const std::string_view weight = next(pairs);
+            if (joint.empty() || joint.starts_with('-')) continue;
+            if (!out.pairs.empty()) out.pairs += ' ';
+            out.pairs.append(joint).append(" ").append(weight);
+            ++kept;
+        }
+        if (!out.counts.empty()) out.counts += ' ';
+        out.counts += std::to_string(kept);
+    }
+    return out;
+}
+
 // A <skew> as the matrix that it stands for, which Assimp knows: it asserts over the other. Points go along its second
 // axis, so that the first one turns towards that by an angle. As it is where it has other than seven numbers.
 std::string matrixOfSkew(std::string_view text) {
@@ -180,15 +213,17 @@ class TidyWriter {
 
     void text(std::string_view text) {
         const bool pairs = order_.joint == 0 && order_.weight == 1 && order_.stride == 2;
-        if (tag_ == "<v" && inWeights_ && !pairs) {
-            out_ += orderedWeights(text, order_);
+        if (tag_ == "<v" && inWeights_) {
+            weights(pairs ? std::string(text) : orderedWeights(text, order_));
             return;
         }
         if (tag_ == "<skew") {
             out_ += matrixOfSkew(text);
             return;
         }
+        const std::size_t start = out_.size();
         appendTidy(text, out_);
+        if (tag_ == "<vcount" && inWeights_) counts_ = {start, out_.size() - start};
         if (tag_ == "<vcount" && polygons_ != std::string::npos) setCount(out_, polygons_, wordsIn(text));
         // One exporter leaves the opacity out.
         if (tag_ == "<color" && wordsIn(text) == 3) out_ += " 1";
@@ -202,7 +237,10 @@ class TidyWriter {
             skinBegins_ = false;
         }
         if (tag_ == "<skin") skinBegins_ = true;
-        if (tag_ == "<vertex_weights") order_ = WeightOrder{};
+        if (tag_ == "<vertex_weights") {
+            order_ = WeightOrder{};
+            counts_ = {};
+        }
         if (tag_ == "<vertex_weights" || markup == "</vertex_weights>") inWeights_ = tag_ == "<vertex_weights";
         if (tag_ == "<input" && inWeights_) {
             out_ += orderedInput(markup, order_);
@@ -247,8 +285,21 @@ class TidyWriter {
         return markup == "</instance_image>" || (inInitFrom_ && (tag_ == "<ref" || markup == "</ref>"));
     }
 
+    // Their counts stand before them.
+    void weights(const std::string& pairs) {
+        if (pairs.find('-') == std::string::npos || counts_.second == 0) {
+            appendTidy(pairs, out_);
+            return;
+        }
+        const Weights kept = withoutBindShape(out_.substr(counts_.first, counts_.second), pairs);
+        out_.replace(counts_.first, counts_.second, kept.counts);
+        counts_ = {};
+        out_ += kept.pairs;
+    }
+
     std::string out_;
     std::string_view tag_;
+    std::pair<std::size_t, std::size_t> counts_{};  // where a skin's counts begin, and their length
     bool is15_ = false;
     bool inInitFrom_ = false;
     bool skinBegins_ = false;

@@ -14,6 +14,7 @@
 #include "animation/import/assimp/collada_curves.hpp"
 #include "animation/import/assimp/collada_ids.hpp"
 #include "animation/import/assimp/collada_links.hpp"
+#include "animation/import/assimp/collada_targets.hpp"
 #include "animation/import/assimp/collada_text.hpp"
 #include "animation/import/source_limits.hpp"
 #include "core/files.hpp"
@@ -36,8 +37,8 @@ std::string tidiedBytes(const fs::path& file, LeftOut& leftOut) {
     if (!bytes) return {};
     const std::string_view whole(reinterpret_cast<const char*>(bytes.value().data()), bytes.value().size());
     if (!collada) return tidyB3d(whole);
-    StraightenedCollada out =
-        straightenedCollada(gatheredCollada(withOwnSamplers(withOwnIds(linkedCollada(tidyCollada(whole))))));
+    StraightenedCollada out = straightenedCollada(
+        gatheredCollada(withOwnSamplers(withOwnIds(withPlainTargets(linkedCollada(tidyCollada(whole)))))));
     leftOut.curves = !out.isWhole;
     return std::move(out.text);
 }

@@ -9,6 +9,7 @@
 #include "animation/import/assimp/clip_conversion.hpp"
 #include "animation/import/assimp/collada_bind_shape.hpp"
 #include "animation/import/assimp/collada_clips.hpp"
+#include "animation/import/assimp/collada_curves.hpp"
 #include "animation/import/assimp/collada_links.hpp"
 #include "animation/import/assimp/collada_text.hpp"
 #include "animation/import/assimp/flat_hierarchy.hpp"
@@ -83,6 +84,10 @@ void completeByDocument(const std::filesystem::path& file, SourceScene& out) {
     const ColladaDocument document(text);
     if (holdsMorphs(document))
         out.warnings.emplace_back("left out: morph targets, which the file has on from the start");
+    if (sharesSkin(document))
+        out.warnings.emplace_back("one skin is shown with several skeletons: all of its meshes follow the first");
+    if (!out.clips.empty() && holdsOtherCurves(document))
+        out.warnings.emplace_back("curves of the kinds CARDINAL and BSPLINE play straight from key to key");
     if (!out.clips.empty()) settleColladaClips(document, out);
     completeBindShapes(document, out);
     const auto names = colladaNodeNames(text);

@@ -177,7 +177,11 @@ class BvhParser {
             const bool frames = sameButCase(std::string_view(label).substr(0, 6), "Frames");
             const bool time = sameButCase(std::string_view(label).substr(0, 9), "FrameTime");
             if (frames) stated = *value;
-            if (time && *value > 0.0 && *value < 60.0) document.frameSeconds = *value;
+            const bool plausible = *value > 0.0 && *value < 60.0;
+            if (time && plausible) document.frameSeconds = *value;
+            if (time && !plausible)
+                document.warnings.push_back(
+                    fmt::format("says that a frame takes {} s: took 1/{:.0f} s", *value, 1.0 / document.frameSeconds));
             if (!frames && !time) return fail(fmt::format("'{}' stands where Frames or Frame Time should", label));
             if (time) {
                 readFrames(stated);

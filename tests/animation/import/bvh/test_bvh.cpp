@@ -170,6 +170,19 @@ TEST_CASE("a BVH motion that breaks off keeps its whole frames") {
     CHECK(warns(scene.value(), "2 frames, but 1 are there"));
 }
 
+TEST_CASE("a BVH whose frames take no time, or minutes, is told the rate that it gets") {
+    for (const std::string stated : {"0", "-0.01", "nan", "90", "0.01"}) {
+        INFO(stated);
+        std::string text = lineFigure();
+        text.replace(text.find("Time: 0.01") + 6, 4, stated);
+        const Result<SourceScene> scene = readText(text);
+        REQUIRE(scene.ok());
+        const bool isOdd = stated != "0.01";
+        CHECK(warns(scene.value(), "says that a frame takes") == isOdd);
+        CHECK(scene.value().clips.at(0).channels.at(0).times.at(1) == Approx(isOdd ? 1.0 / 30.0 : 0.01));
+    }
+}
+
 TEST_CASE("a damaged BVH hierarchy is refused with its line") {
     for (const char* text : {"HIERARCHY\nROOT a\n{\nOFFSET 0 0\n}", "HIERARCHY\nROOT a\n{\nCHANNELS 99 Xposition\n}",
                              "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\n", "HIERARCHY\n"}) {
