@@ -10,6 +10,7 @@
 #include "scene/asset/figure_bounds.hpp"
 #include "scene/run/bake.hpp"
 #include "support/catch.hpp"
+#include "support/counting_new.hpp"
 #include "support/ragdolls.hpp"
 
 using namespace lutka;
@@ -100,6 +101,30 @@ TEST_CASE("measuring does not change the simulation") {
         unmeasured->step();
     }
     CHECK(measured->stateHash() == unmeasured->stateHash());
+}
+
+TEST_CASE("steps and poses of a simulation that does not measure allocate nothing once it has been at work") {
+    const auto asset = test::bipedRagdoll();
+    for (const int threads : {1, 2}) {
+        INFO(threads << " threads");
+        SimulationOptions options;
+        options.measure = false;
+        options.world.threads = threads;
+        options.world.sleeping = false;
+        const auto simulation = start(*asset, "pile", options, 4);
+        const auto stepAndPose = [&] {
+            simulation->step();
+            return simulation->poseSkins(0.5F).posed();
+        };
+        for (int step = 0; step < 300; ++step)
+            static_cast<void>(stepAndPose());
+        const std::size_t before = test::allocationCount();
+        int posed = 0;
+        for (int step = 0; step < 120; ++step)
+            posed += stepAndPose();
+        CHECK(test::allocationCount() == before);
+        CHECK(posed > 0);
+    }
 }
 
 TEST_CASE("a fall from a clip starts with the clip's own velocities") {
