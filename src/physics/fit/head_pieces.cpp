@@ -130,10 +130,21 @@ class HeadSkin {
     std::vector<Piece> pieces_;
 };
 
-// Whether a piece's middle lies beyond the head's joint, as a skull's does; a beard's hangs below it.
+vec3 middleOf(const Piece& piece) {
+    return piece.sum / static_cast<float>(piece.points.size());
+}
+
+// Whether a piece's middle lies beyond the head's joint, as a skull's does.
 bool isBeyondJoint(const Piece& piece, const PlannedBody& head) {
-    const vec3 middle = piece.sum / static_cast<float>(piece.points.size());
-    return glm::dot(middle - head.start, head.end - head.start) > 0.0F;
+    return glm::dot(middleOf(piece) - head.start, head.end - head.start) > 0.0F;
+}
+
+// Whether a piece hangs from the skull, as a beard does: its middle lies lower than the head's joint and all of the
+// skull's box. The panels of a box around its joint do not.
+bool hangsFrom(const Piece& piece, const PlannedBody& head, const Aabb& skull) {
+    const vec3 up = head.end - head.start;
+    const float lowest = glm::dot(skull.middle(), up) - 0.5F * glm::dot(skull.size(), glm::abs(up));
+    return !isBeyondJoint(piece, head) && glm::dot(middleOf(piece), up) < lowest;
 }
 
 // The index of the skull itself: the largest of the pieces that begin at the head's joint and lie beyond it.
@@ -175,7 +186,7 @@ std::vector<float> reachesOf(const std::vector<Piece>& pieces, std::size_t skull
             Aabb larger = box;
             larger.add(pieces[i].box);
             const bool isWhole = larger.diagonal() <= most;
-            reaches[i] = isWhole ? kAll : isBeyondJoint(pieces[i], head) ? margin : 0.0F;
+            reaches[i] = isWhole ? kAll : hangsFrom(pieces[i], head, box) ? 0.0F : margin;
             if (isWhole) box = larger;
             grown = grown || isWhole;
         }
