@@ -60,7 +60,7 @@ TEST_CASE("names of a glTF that are no UTF-8 cost their characters, with a word"
 
 TEST_CASE("numbers of a glTF that are none are told, and a null is as if it were not there") {
     const std::string text = spelledText(makePostRig());
-    for (const char* number : {"NaN", "-nan(ind)", "Infinity", "-1.#IND", "inf"}) {
+    for (const char* number : {"NaN", "-nan(ind)", "Infinity", "-1.#IND", "inf", "1e999", "-1e999"}) {
         INFO(number);
         const Character told = soundPost(
             readSpelled(respelled(text, "\"asset\":{", std::string("\"asset\":{\"extras\":") + number + ",")));

@@ -47,7 +47,7 @@ std::string plainTarget(std::string_view target, const std::set<std::string_view
 
 }  // namespace
 
-std::string withPlainTargets(std::string document) {
+std::string withPlainTargets(const std::string& document) {
     const std::vector<ColladaTag> tags = colladaTags(document);
     const std::set<std::string_view> rotations = rotationSids(tags);
     ColladaEdits edits(document);

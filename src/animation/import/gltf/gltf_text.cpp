@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <string_view>
 
 #include "animation/import/gltf/gltf_json.hpp"
@@ -60,9 +61,10 @@ int escapedUnit(std::string_view text, std::size_t at) {
 }
 
 // Whether a word that stands for a value is a number that is none, as C, C#, JavaScript, Python and Microsoft's
-// libraries write such.
+// libraries write such, or one too large for any.
 bool isNoNumber(std::string_view word) {
     std::string plain = lowerCased(std::string(word));
+    if (std::isinf(std::strtod(plain.c_str(), nullptr))) return true;
     if (plain.starts_with('-') || plain.starts_with('+')) plain.erase(0, 1);
     constexpr std::array<std::string_view, 7> kStarts = {"nan",     "inf",     "1.#inf",      "1.#ind",
                                                          "1.#qnan", "1.#snan", "\xE2\x88\x9E"};
