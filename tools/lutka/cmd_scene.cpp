@@ -24,14 +24,15 @@ struct SceneCommandOptions {
 };
 
 // A figure of common size, where no model says better.
-constexpr scene::FigureBounds kPerson{{-0.85F, 0.0F, -0.15F}, {0.85F, 1.75F, 0.15F}};
+constexpr vec3 kPersonLow{-0.85F, 0.0F, -0.15F};
+constexpr vec3 kPersonHigh{0.85F, 1.75F, 0.15F};
 
 scene::EntityScene sceneOf(const SceneCommandOptions& options) {
     scene::EntityScene scene;
     if (scene::isSceneFile(options.scene)) {
         scene = orLeave(scene::loadScene(options.scene));
     } else {
-        scene::FigureBounds figure = kPerson;
+        scene::FigureBounds figure{kPersonLow, kPersonHigh};
         scene::LoadOptions load;
         if (options.rig == "any") load.fit.rig = physics::RigKind::any;
         if (!options.model.empty()) figure = scene::figureOf(*orLeave(scene::loadRagdoll(options.model, load))).bounds;
