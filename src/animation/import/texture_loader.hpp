@@ -21,8 +21,7 @@ namespace lutka::animation::rig_import {
 /// 1. among the embedded ones;
 /// 2. at the path as written;
 /// 3. by its base name (also of an absolute Windows path) in the model's folder and its `textures` folders, whatever
-/// the
-///    case of its letters;
+///    the case of its letters;
 /// 4. there with the ending of another kind of picture.
 class TextureLoader {
   public:

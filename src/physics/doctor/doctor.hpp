@@ -51,8 +51,7 @@ struct Diagnosis {
 /// - `joint-not-below` a role's joint is not below that of the role above it, or hangs on another limb (error; warning
 ///   where both sides are built so, as feet under an IK root, and in a flat tree)
 /// - `limb-uneven` one half of an arm or leg is more than three times as long as the other: a role is on a joint
-/// farther
-///   out or in (warning)
+///   farther out or in (warning)
 /// - `skin-outside-bodies` most of the skin is more than 6 % of the height (of a thick body: 74 % of its radius) from
 ///   all bodies, and few of these have skin of their own about them; or much of it lies at bodies of other parts than
 ///   the one that moves it (error)

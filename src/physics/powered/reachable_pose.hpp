@@ -20,8 +20,7 @@ namespace lutka::physics {
 ///   turn in the world as far as their own limits let them.
 /// - All other joints take the nearest turn within their limits, and what hangs on them goes along.
 /// - Limbs that overlap another body are turned out of it about the shoulder or hip; a leg that is folded into the
-/// trunk
-///   opens its knee. Where that would break a limit the limit wins.
+///   trunk opens its knee. Where that would break a limit the limit wins.
 class ReachablePose {
   public:
     /// `keeps`: one a body, which of them stay as they are turned, such as kinematic ones; empty: none. The profile

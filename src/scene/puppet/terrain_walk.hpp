@@ -14,8 +14,7 @@ namespace lutka::scene {
 /// - Each foot keeps its height over the ground, and its sole turns with the slope.
 /// - The hips come down where a leg is too short.
 /// - Heights of the ground are smoothed over time and taken a little ahead, so that a foot is over a step before it
-/// gets
-///   there.
+///   gets there.
 ///
 /// The asset must outlive this.
 class TerrainWalk {
