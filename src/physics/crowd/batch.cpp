@@ -57,6 +57,7 @@ BatchView Batch::view(const Topology& topology) {
             pairBodies,
             &answered,
             &energy,
+            &flight,
             &struck};
 }
 

@@ -63,7 +63,8 @@ struct Batch {
     PairBodies pairBodies{};
     Wide answered{};  ///< See BatchView.
     Wide energy{};    ///< See BatchView.
-    Wide struck{};    ///< See BatchView.
+    FlightLanes flight{};
+    Wide struck{};  ///< See BatchView.
 
     [[nodiscard]] BatchView view(const Topology& topology);
 };

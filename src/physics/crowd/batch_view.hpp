@@ -29,7 +29,8 @@ struct BatchView {
     PairBodies pairBodies;
     Wide* answered;  ///< 1 where the lane's doll has answered to contacts that were pressed again, else 0.
     Wide* energy;    ///< J, kinetic, of each doll at the substep's start.
-    Wide* struck;    ///< What else presses the lane's doll in this substep: see Struck.
+    FlightLanes* flight;
+    Wide* struck;  ///< What else presses the lane's doll in this substep: see Struck.
 };
 
 }  // namespace lutka::physics::crowd

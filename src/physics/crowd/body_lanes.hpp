@@ -80,6 +80,12 @@ struct BodyConstants {
     float armReach;   ///< Greatest distance of a joint's anchor from the centre.
 };
 
+/// A doll's motion about its centre of mass as its substep begins, one a lane.
+struct FlightLanes {
+    Wide3 angularMomentum;  ///< kg m²/s
+    Wide energy;            ///< J, kinetic.
+};
+
 /// What brings dolls to rest, one a lane; 0 and 1 for those that move.
 struct RestLanes {
     Wide brake;     ///< 1/s: how fast all speeds decay.

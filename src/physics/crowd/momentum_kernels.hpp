@@ -1,6 +1,6 @@
 #pragma once
 
-/// The end of a substep: what a doll in free flight keeps, and the bodies' new positions.
+/// The end of a substep: the bodies' new positions, and what a doll in free flight keeps.
 
 #include "physics/crowd/tree_kernels.hpp"
 
@@ -10,47 +10,19 @@ namespace lutka::physics::crowd::LUTKA_KERNELS {
 // target. Nor does another doll press it.
 static Mask unheld(const BatchView& batch) {
     Mask held = load(*batch.struck) >= all(Struck::byDoll);
+    // A contact may pull by less than its tolerance, or rub by what is left of a blow.
     for (int i = 0; i < batch.contactCount; ++i) {
-        if (batch.contacts[i].engaged != 0) held |= load(batch.contacts[i].normalImpulse) > all(0.0F);
+        const StaticContactLanes& contact = batch.contacts[i];
+        if (contact.engaged == 0) continue;
+        const V3 friction = load(contact.frictionImpulse);
+        const V3 roll = load(contact.rollImpulse);
+        held |= (load(contact.normalImpulse) != all(0.0F)) | (dot(friction, friction) + dot(roll, roll) > all(0.0F));
     }
     for (int i = 0; i < batch.dragCount; ++i)
         held |= load(batch.drags[i].weight) > all(0.0F);
     for (int b = 0; batch.targets != nullptr && b < batch.bodyCount; ++b)
         held |= load(batch.targets[b].weight) > all(0.0F);
     return ~held;
-}
-
-// The solver pushes at the arms of the substep's middle, so that the anchors meet at its end, while the bodies' centres
-// are still where the substep began. Together that is a torque of (middle arm - arm) x push from nowhere, and cost a
-// tumbling doll 4 % of its angular momentum a second. What a body keeps is what pushes at the arms of the start give
-// (as in SHAKE; Ryckaert, Ciccotti and Berendsen 1977): the anchors are one point there, so nothing is lost.
-// What rests on something keeps what the solver found, which holds the contact. So does a doll that is struck: the push
-// of a hit at an arm that is a little off turned light limbs by another 100 rad/s a substep.
-static void keepMomentum(const BatchView& batch) {
-    const Mask free = unheld(batch);
-    if (bits(free) == 0) return;
-    const F share = free ? all(1.0F) : all(0.0F);
-    // A joint's push is the sum over all that hangs on it; velocityChange is free for that once the tree is solved.
-    for (int b = 0; b < batch.bodyCount; ++b) {
-        const BodyLanes& body = batch.bodies[b];
-        const F mass = all(batch.bodyConstants[b].mass);
-        store(batch.tree[b].velocityChange, (load(body.steadyVelocity) - load(body.loose)) * mass);
-    }
-    for (int j = batch.jointCount - 1; j >= 0; --j) {
-        const JointLanes& joint = batch.joints[j];
-        const JointConstants& constants = batch.jointConstants[j];
-        BodyLanes& parent = batch.bodies[constants.parent];
-        BodyLanes& child = batch.bodies[constants.child];
-        const V3 push = load(batch.tree[constants.child].velocityChange);
-        Wide3& above = batch.tree[constants.parent].velocityChange;
-        store(above, load(above) + push);
-        const V3 childOff = axesOf(child) * all(constants.childAnchor) - load(joint.childArm);
-        const V3 parentOff = axesOf(parent) * all(constants.parentAnchor) - load(joint.parentArm);
-        const V3 childTurn = load(child.inverseInertia) * cross(childOff, push);
-        const V3 parentTurn = load(parent.inverseInertia) * cross(parentOff, push);
-        store(child.steadyAngular, load(child.steadyAngular) + childTurn * share);
-        store(parent.steadyAngular, load(parent.steadyAngular) - parentTurn * share);
-    }
 }
 
 // Contacts within a doll that were pressed again as often as they may be, and were wrong together to the last, leave it
@@ -85,10 +57,66 @@ static void limitEnergy(const BatchView& batch) {
     showMotions(batch);
 }
 
+// The lanes in which nothing within the doll takes energy either: no joint rubs or is at its stop, no bodies touch.
+LUTKA_LANES Mask takesNothing(const BatchView& batch) {
+    const F zero = all(0.0F);
+    if (batch.pairedCount > 0) return noLanes();
+    Mask takes = noLanes();
+    for (int j = 0; j < batch.jointCount; ++j) {
+        const JointLanes& joint = batch.joints[j];
+        const V3 friction = load(joint.frictionImpulse);
+        takes |= dot(friction, friction) > zero;
+        for (int i = 0; i < kLimitRows; ++i)
+            if (joint.limitActive[i] != 0) takes |= load(joint.limit[i].gain) > zero;
+    }
+    return ~takes;
+}
+
+// A doll in free flight has the angular momentum that it began the substep with, and no more energy. The solver pushes
+// at the arms of the substep's middle, so that the anchors meet at its end, while the bodies' centres are still where
+// the substep began; together that is a torque from nowhere, and cost a tumbling doll 4 % of its angular momentum a
+// second. A doll's motion about its centre is the sum of a rigid body's, which has all of the angular momentum, and one
+// within the doll, which has none. Their energies add up (Koenig), and the joints hold in both. So the first is made
+// what the momentum asks, and the second is scaled to what is left of the energy. (Simo and Tarnow 1992 build both into
+// the integrator; here they are restored after it.)
+static void keepFlight(const BatchView& batch, Mask free) {
+    const F zero = all(0.0F);
+    const F one = all(1.0F);
+    const WholeMotion whole = wholeMotion(batch, &BodyLanes::velocity, &BodyLanes::angular);
+    const Symmetric inverseInertia = inverse(whole.inertia);
+    const V3 momentum = load(batch.flight->angularMomentum);
+    const V3 rateNow = inverseInertia * whole.angularMomentum;
+    const V3 rate = inverseInertia * momentum;
+    F factor = one;
+    if (batch.motors == nullptr) {
+        constexpr float kLeastSpeed2 = 1e-6F;  // (m/s)²: where there is less within, there is nothing to scale
+        const F within = whole.energy - all(0.5F) * dot(rateNow, whole.angularMomentum);
+        const F left = load(batch.flight->energy) - all(0.5F) * dot(rate, momentum);
+        const F moves = whole.mass * all(kLeastSpeed2);
+        const F share = squareRoot(most(left, zero) / most(within, moves));
+        const F gain = left - within;
+        const Mask gains = (gain > zero) & ~takesNothing(batch);
+        factor = (within > moves) & ~gains ? share : one;
+    }
+    const V3 origin = load(batch.bodies[0].position) + whole.centre;
+    const V3 drift = load(batch.bodies[0].velocity) + whole.velocity;
+    for (int b = 0; b < batch.bodyCount; ++b) {
+        BodyLanes& body = batch.bodies[b];
+        const V3 arm = load(body.position) - origin;
+        const V3 velocity = load(body.velocity);
+        const V3 angular = load(body.angular);
+        const V3 inner = velocity - drift - cross(rateNow, arm);
+        store(body.velocity, choose(free, drift + cross(rate, arm) + inner * factor, velocity));
+        store(body.angular, choose(free, rate + (angular - rateNow) * factor, angular));
+    }
+}
+
 static void advance(const BatchView& batch, const SubstepParams& params) {
-    if (batch.jointCount > 0) keepMomentum(batch);
+    const Mask free = batch.jointCount > 0 ? unheld(batch) : noLanes();
     for (int b = 0; b < batch.bodyCount; ++b)
         advanceBody(batch.bodies[b], batch.bodyConstants[b], all(params.dt));
+    const Mask alone = free & (load(*batch.struck) <= all(0.0F));
+    if (bits(alone) != 0) keepFlight(batch, alone);
 }
 
 }  // namespace lutka::physics::crowd::LUTKA_KERNELS

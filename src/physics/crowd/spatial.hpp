@@ -51,6 +51,13 @@ LUTKA_LANES Symmetric symmetricProduct(const Matrix& a, const Matrix& b) {
     return {dot(a.row[0], b.row[0]), dot(a.row[1], b.row[1]), dot(a.row[2], b.row[2]),
             dot(a.row[0], b.row[1]), dot(a.row[0], b.row[2]), dot(a.row[1], b.row[2])};
 }
+// The inertia of a mass at an arm.
+LUTKA_LANES Symmetric pointInertia(const V3& arm, F mass) {
+    const V3 scaled = arm * mass;
+    const F whole = dot(scaled, arm);
+    return {whole - scaled.x * arm.x, whole - scaled.y * arm.y, whole - scaled.z * arm.z,
+            -(scaled.x * arm.y),      -(scaled.x * arm.z),      -(scaled.y * arm.z)};
+}
 // weight · a aᵀ added.
 LUTKA_LANES void addSquare(Symmetric& to, const V3& a, F weight) {
     const V3 scaled = a * weight;

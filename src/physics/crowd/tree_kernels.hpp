@@ -359,6 +359,47 @@ LUTKA_LANES F kineticEnergy(const BatchView& batch, Wide3 BodyLanes::*velocity, 
     return energy;
 }
 
+// The motion of a doll as a whole. Positions and velocities are as seen from its first body: far from the origin and in
+// a fast fall the small differences count.
+struct WholeMotion {
+    F mass;
+    V3 centre;    // m
+    V3 velocity;  // m/s, of the centre of mass
+    Symmetric inertia;
+    V3 angularMomentum;  // both about it, as is
+    F energy;            // J, kinetic
+};
+
+LUTKA_LANES WholeMotion wholeMotion(const BatchView& batch, Wide3 BodyLanes::*velocity, Wide3 BodyLanes::*angular) {
+    const F zero = all(0.0F);
+    const V3 none{zero, zero, zero};
+    const V3 origin = load(batch.bodies[0].position);
+    const V3 drift = load(batch.bodies[0].*velocity);
+    WholeMotion whole{zero, none, none, {zero, zero, zero, zero, zero, zero}, none, zero};
+    for (int b = 0; b < batch.bodyCount; ++b) {
+        const BodyLanes& body = batch.bodies[b];
+        const F mass = all(batch.bodyConstants[b].mass);
+        const Symmetric inertia = onAxes(axesOf(body), batch.bodyConstants[b].inertia);
+        const V3 arm = load(body.position) - origin;
+        const V3 moving = load(body.*velocity) - drift;
+        const V3 turning = load(body.*angular);
+        const V3 own = inertia * turning;
+        whole.mass = whole.mass + mass;
+        whole.centre = whole.centre + arm * mass;
+        whole.velocity = whole.velocity + moving * mass;
+        whole.inertia = whole.inertia + inertia + pointInertia(arm, mass);
+        whole.angularMomentum = whole.angularMomentum + cross(arm, moving * mass) + own;
+        whole.energy = whole.energy + all(0.5F) * (mass * dot(moving, moving) + dot(own, turning));
+    }
+    const F share = all(1.0F) / whole.mass;
+    whole.centre = whole.centre * share;
+    whole.velocity = whole.velocity * share;
+    whole.inertia = whole.inertia - pointInertia(whole.centre, whole.mass);
+    whole.angularMomentum = whole.angularMomentum - cross(whole.centre, whole.velocity * whole.mass);
+    whole.energy = whole.energy - all(0.5F) * whole.mass * dot(whole.velocity, whole.velocity);
+    return whole;
+}
+
 LUTKA_LANES F keptEnergy(const BatchView& batch) {
     return kineticEnergy(batch, &BodyLanes::steadyVelocity, &BodyLanes::steadyAngular);
 }
@@ -446,6 +487,11 @@ static void solve(const BatchView& batch, const SubstepParams& params, int first
         takeSupports(batch);
         store(*batch.answered, all(0.0F));
         store(*batch.energy, keptEnergy(batch));
+        if (batch.jointCount > 0) {
+            const WholeMotion whole = wholeMotion(batch, &BodyLanes::steadyVelocity, &BodyLanes::steadyAngular);
+            store(batch.flight->angularMomentum, whole.angularMomentum);
+            store(batch.flight->energy, whole.energy);
+        }
         for (int i = 0; i < batch.dragCount; ++i)
             store(batch.drags[i].before, keptVelocity(batch, batch.drags[i]));
     } else {

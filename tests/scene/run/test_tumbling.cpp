@@ -13,25 +13,27 @@ using namespace lutka;
 namespace {
 
 void checkTumbling(const scene::RagdollAsset& asset) {
-    for (const vec3& axis : {vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1), vec3(1, 1, 1)}) {
-        const vec3 rate = 7.0F * glm::normalize(axis);
-        CAPTURE(asset.character.name, axis.x, axis.y, axis.z);
+    for (const vec3& rate : {vec3(7, 0, 0), vec3(0, 7, 0), vec3(0, 0, 15), vec3(9, 9, 9)}) {
+        CAPTURE(asset.character.name, rate.x, rate.y, rate.z);
         const auto lossOf = [&](const physics::RagdollProfile& profile) {
             return test::tumble(asset, profile, *test::emptySpace(physics::SolverKind::crowd), rate);
         };
-        CHECK(lossOf(asset.profile).angularMomentum < 0.003);
-        CHECK(lossOf(test::withoutContacts(asset.profile)).angularMomentum < 0.003);
+        for (const physics::RagdollProfile& profile : {asset.profile, test::withoutContacts(asset.profile)}) {
+            const test::Loss loss = lossOf(profile);
+            CHECK(loss.angularMomentum < 0.001);
+            CHECK(loss.growth < 0.002);
+        }
         const test::Loss free = lossOf(test::withoutLosses(asset.profile));
-        CHECK(free.angularMomentum < 0.003);
-        CHECK(std::abs(free.energy) < 0.01);
-        CHECK(free.growth < 0.01);
+        CHECK(free.angularMomentum < 0.001);
+        CHECK(std::abs(free.energy) < 0.001);
+        CHECK(free.growth < 0.001);
     }
 }
 
 }  // namespace
 
-// It lost 9 % in two seconds, in proportion to the substep.
-TEST_CASE("a doll that tumbles at 7 rad/s keeps its angular momentum, and its energy where nothing takes any") {
+// It lost 9 % in two seconds, in proportion to the substep, and then still 2 % at 15 rad/s, with 5 % more energy.
+TEST_CASE("a doll that tumbles at up to 15 rad/s keeps its angular momentum, and its energy where nothing takes any") {
     const auto asset = test::loadFigure(LUTKA_ASSETS_DIR "/models/mannequin.glb");
     REQUIRE(asset.ok());
     checkTumbling(*asset.value());
