@@ -40,6 +40,25 @@ struct JointSetting {
     F near;
 };
 
+// All of its rotation is an error.
+LUTKA_LANES Mask prepareLocked(JointLanes& joint, const JointSetting& setting, const SubstepParams& params) {
+    const F zero = all(0.0F);
+    const Axes& frame = setting.frame;
+    const Q& relative = setting.relative;
+    HingeRows& rows = joint.hinge;
+    store(rows.axis, V3{zero, zero, zero});
+    const F twice = relative.w < zero ? all(-2.0F) : all(2.0F);
+    const V3 error = frame * V3{relative.x * twice, relative.y * twice, relative.z * twice};
+    const F size = squareRoot(dot(error, error));
+    store(rows.bias, error * least(all(params.jointRate), all(params.limitSpeed) / most(size, all(1e-6F))));
+    const F easiest = least(least(dot(frame.x, setting.k * frame.x), dot(frame.y, setting.k * frame.y)),
+                            dot(frame.z, setting.k * frame.z));
+    store(rows.weight, all(params.jointStiffness) / easiest);
+    for (int& active : joint.limitActive)
+        active = 0;
+    return size > all(params.mendAngle);
+}
+
 LUTKA_LANES Mask prepareHinge(JointLanes& joint, const JointConstants& constants, const JointSetting& setting,
                               const SubstepParams& params) {
     const F two = all(2.0F);
@@ -153,8 +172,9 @@ LUTKA_LANES void beginJoint(JointLanes& joint, const JointConstants& constants, 
     const JointSetting setting{load(parent.inverseInertia) + load(child.inverseInertia), axesOf(parentFrame),
                                conjugate(parentFrame) * (load(child.rotation) * allTurns(constants.childFrame)),
                                all(0.1F) + rate * all(2.0F * params.dt)};
-    const Mask off = constants.isHinge != 0 ? prepareHinge(joint, constants, setting, params)
-                                            : prepareCone(joint, constants, setting, params);
+    const Mask off = constants.isLocked != 0  ? prepareLocked(joint, setting, params)
+                     : constants.isHinge != 0 ? prepareHinge(joint, constants, setting, params)
+                                              : prepareCone(joint, constants, setting, params);
     joint.mends = bits(off | (dot(error, error) > all(params.mendGap * params.mendGap))) != 0 ? 1 : 0;
 }
 

@@ -11,6 +11,7 @@ struct JointConstants {
     int parent;
     int child;
     int isHinge;
+    int isLocked;  ///< Whether its range is so narrow that it does not turn at all; neither a hinge nor a cone then.
     int childGathers;  ///< Whether the child has children itself.
     int opens;         ///< Whether it is the last joint of its parent, whose sum it begins.
     float parentAnchor[3];
@@ -31,9 +32,9 @@ struct LimitRow {
     Wide gain;     ///< `weight` where the row holds, else 0.
 };
 
-/// The rows that keep a hinge's axes parallel, as one vector across the axis.
+/// The rows that keep a hinge's axes parallel, as one vector across the axis; or a locked joint from turning at all.
 struct HingeRows {
-    Wide3 axis;
+    Wide3 axis;     ///< Zero where the joint is locked: all is across it.
     Wide3 bias;     ///< rad/s, mends the axes' error.
     Wide3 impulse;  ///< N m s, on the child.
     Wide weight;

@@ -235,7 +235,7 @@ LUTKA_LANES JointTerms askJoint(JointLanes& joint, const JointConstants& constan
     JointTerms terms{{zero, zero, zero}, {zero, zero, zero, zero, zero, zero}};
     const bool rubs = constants.frictionNm > 0.0F && !pass.mending;
     const F frictionLimit = load(joint.frictionLimit) * pass.stiction;
-    if (constants.isHinge != 0) {
+    if (constants.isHinge != 0 || constants.isLocked != 0) {
         askHinge(joint.hinge, relative, pass, terms);
         if (rubs) askHingeFriction(joint, relative, frictionLimit, pass, terms);
     } else {
@@ -252,7 +252,7 @@ LUTKA_LANES Mask updateJoint(JointLanes& joint, const JointConstants& constants,
                              const SubstepParams& params, const Pass& pass) {
     Mask wrong = noLanes();
     const bool rubs = constants.frictionNm > 0.0F;
-    if (constants.isHinge != 0) {
+    if (constants.isHinge != 0 || constants.isLocked != 0) {
         HingeRows& rows = joint.hinge;
         store(rows.impulse, load(rows.impulse) - hingeOff(rows, relative, pass) * load(rows.weight));
         if (rubs) {

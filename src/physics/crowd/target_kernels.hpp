@@ -80,7 +80,7 @@ LUTKA_LANES void scale(Wide3& v, F factor) {
 // What such a joint's rows have gathered must not act when a body is let go of.
 static __attribute__((noinline)) void forgetHeld(JointLanes& joint, const JointConstants& constants, F free) {
     scale(joint.frictionImpulse, free);
-    if (constants.isHinge != 0) scale(joint.hinge.impulse, free);
+    if (constants.isHinge != 0 || constants.isLocked != 0) scale(joint.hinge.impulse, free);
     for (LimitRow& limit : joint.limit)
         store(limit.impulse, load(limit.impulse) * free);
 }

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <optional>
 
 #include "physics/collision/shape.hpp"
 #include "physics/crowd/narrowphase.hpp"
@@ -49,37 +50,48 @@ BodyConstants constantsOf(const BodyShape& shape, float massKg, const vec3& iner
     return constants;
 }
 
-// Half the width that a range has at least, radians. One of no width has its stops on both sides at once: what is
-// locked trembled between them for ever.
-constexpr float kLeastHalf = radians(1.0F);
+// Half the width of a range, radians, up to which a joint that it bounds is locked. Its stops on both sides would hold
+// by turns, it would tremble between them, and stops are only as stiff as single bodies are heavy.
+constexpr float kLocked = radians(1.0F);
 
-HingeLimits widened(const HingeLimits& limits) {
-    if (limits.upper - limits.lower >= 2.0F * kLeastHalf) return limits;
-    const float middle = 0.5F * (limits.lower + limits.upper);
-    return {middle - kLeastHalf, middle + kLeastHalf};
+// The rotation that a locked joint is held in; nothing for one that turns.
+std::optional<quat> lockedTurn(const ConstraintProfile& constraint) {
+    if (constraint.kind == ConstraintProfile::Kind::hinge) {
+        const HingeLimits& hinge = constraint.hinge;
+        if (hinge.upper - hinge.lower > 2.0F * kLocked) return std::nullopt;
+        return glm::angleAxis(0.5F * (hinge.lower + hinge.upper), vec3(0, 0, 1));
+    }
+    const ConeTwistLimits& cone = constraint.cone;
+    if (std::max({cone.swingY, cone.swingZ, cone.twist}) > kLocked) return std::nullopt;
+    return quat(1, 0, 0, 0);
 }
 
 JointConstants constantsOf(const ConstraintProfile& constraint) {
     JointConstants constants{};
     constants.parent = constraint.parent;
     constants.child = constraint.child;
-    constants.isHinge = constraint.kind == ConstraintProfile::Kind::hinge ? 1 : 0;
+    constants.longAxis = -1;
     copy(constants.parentAnchor, constraint.parentFromFrame.translation);
     copy(constants.childAnchor, constraint.childFromFrame.translation);
     copy(constants.parentFrame, constraint.parentFromFrame.rotation);
     copy(constants.childFrame, constraint.childFromFrame.rotation);
-    if (constants.isHinge != 0) {
-        const HingeLimits hinge = widened(constraint.hinge);
-        copy(constants.limit, vec3(hinge.lower, hinge.upper, 0));
-    } else {
-        copy(constants.limit,
-             glm::max(vec3(constraint.cone.swingY, constraint.cone.swingZ, constraint.cone.twist), vec3(kLeastHalf)));
+    if (const std::optional<quat> turn = lockedTurn(constraint)) {
+        constants.isLocked = 1;
+        copy(constants.childFrame, constraint.childFromFrame.rotation * glm::conjugate(*turn));
+        return constants;
     }
+    constants.frictionNm = constraint.frictionNm;
+    if (constraint.kind == ConstraintProfile::Kind::hinge) {
+        constants.isHinge = 1;
+        copy(constants.limit, vec3(constraint.hinge.lower, constraint.hinge.upper, 0));
+        return constants;
+    }
+    // One of no width has its stops on both sides at once.
+    copy(constants.limit,
+         glm::max(vec3(constraint.cone.swingY, constraint.cone.swingZ, constraint.cone.twist), vec3(kLocked)));
     const float y = constants.limit[0];
     const float z = constants.limit[1];
-    constants.longAxis = -1;
-    if (constants.isHinge == 0 && std::max(y, z) > kRound * std::min(y, z)) constants.longAxis = y > z ? 0 : 1;
-    constants.frictionNm = constraint.frictionNm;
+    if (std::max(y, z) > kRound * std::min(y, z)) constants.longAxis = y > z ? 0 : 1;
     return constants;
 }
 

@@ -122,3 +122,31 @@ TEST_CASE("a wide cone lets the child swing as far as its limit") {
     CHECK(degrees(reached) > 70.0F);
     CHECK(degrees(reached) < 83.0F);
 }
+
+// Its stops on both sides held by turns, and were only as stiff as the two bodies are heavy.
+TEST_CASE("a joint whose range has no width does not turn") {
+    for (const int body : {0, 1}) {
+        for (const vec3& rate : {vec3(12, 0, 0), vec3(0, 12, 0), vec3(0, 0, 12), vec3(-7, 7, 7)}) {
+            CAPTURE(body, rate.x, rate.y, rate.z);
+            PairRun cone(makePair(physics::ConeTwistLimits{0.001F, 0.001F, 0.001F}));
+            cone.spin(body, rate);
+            cone.run(60);
+            CHECK(cone.worstDeg < 0.2F);
+            CHECK(cone.worstSeparation < 2e-3F);
+            PairRun hinge(makePair(physics::HingeLimits{0.0F, 0.0F}));
+            hinge.spin(body, rate);
+            hinge.run(60);
+            CHECK(hinge.worstDeg < 0.2F);
+        }
+    }
+}
+
+TEST_CASE("a hinge that is locked elsewhere than where it starts comes there") {
+    PairRun pair(makePair(physics::HingeLimits{radians(40), radians(40)}));
+    pair.run(60);
+    CHECK(degrees(pair.state.hingeAngle) == Approx(40.0F).margin(0.2));
+    pair.spin(1, {0, 0, 9});
+    pair.run(60);
+    CHECK(degrees(pair.state.hingeAngle) == Approx(40.0F).margin(0.2));
+    CHECK(pair.worstSeparation < 2e-3F);
+}
