@@ -18,6 +18,8 @@
 #include "animation/import/fbx/document.hpp"
 #include "animation/import/fbx/read_fbx.hpp"
 #include "animation/import/gltf/read_gltf.hpp"
+#include "animation/import/iqm/iqm_document.hpp"
+#include "animation/import/iqm/read_iqm.hpp"
 #include "animation/import/source_limits.hpp"
 #include "animation/import/unread_format.hpp"
 #include "core/input_file.hpp"
@@ -71,6 +73,7 @@ Result<SourceScene> read(const fs::path& file, std::string_view start, const Imp
     if (std::optional<Error> refusal = otherUtf16(file, start)) return *std::move(refusal);
     if (fbx::isFbx({reinterpret_cast<const std::uint8_t*>(start.data()), start.size()})) return readFbx(file, options);
     if (isBvh(file, start)) return readBvh(file);
+    if (iqm::isIqm(start)) return readIqm(file, options);
     if (std::optional<Error> refusal = unreadFormat(file, start)) return *std::move(refusal);
     return readWithAssimp(file, options);
 }
