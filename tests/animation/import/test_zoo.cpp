@@ -176,8 +176,10 @@ TEST_CASE("the node pose of every zoo model shows what the file shows") {
     NEEDS_ZOO();
     for (const Model& model : models()) {
         INFO(model.folder);
-        // Assimp cuts polygons of FBX otherwise than our reader, and loses some of its transforms.
-        if (model.refused || !model.oracleKnows || model.file.extension() == ".fbx") continue;
+        // Assimp cuts polygons of FBX otherwise than our reader, and loses some of its transforms; of IQM it loses the
+        // joints, and the axis with them.
+        const auto ending = model.file.extension();
+        if (model.refused || !model.oracleKnows || ending == ".fbx" || ending == ".iqm") continue;
         const Character character = imported(model.file);
         const float error = nodePoseError(character, model.file) / heightOfSkin(character);
         std::printf("%-32s node pose against the formula: %.2e of the height\n", model.folder.c_str(), error);

@@ -2,6 +2,7 @@
 
 #include <assimp/MemoryIOWrapper.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <fstream>
 #include <string_view>
@@ -16,8 +17,10 @@
 #include "animation/import/assimp/collada_links.hpp"
 #include "animation/import/assimp/collada_targets.hpp"
 #include "animation/import/assimp/collada_text.hpp"
+#include "animation/import/assimp/ogre_material.hpp"
 #include "animation/import/source_limits.hpp"
 #include "core/files.hpp"
+#include "core/letter_case.hpp"
 
 namespace lutka::animation::rig_import {
 
@@ -50,12 +53,13 @@ ConfinedFiles::ConfinedFiles(fs::path model, ModelFolder folder, std::shared_ptr
 
 bool ConfinedFiles::mayOpen(const std::string& file) const {
     if (model_ == file) return true;
-    if (!folder_.admits(file)) {
-        leftOut_->outside.insert(file);
-        return false;
-    }
     std::error_code failed;
-    if (!fs::exists(file, failed)) leftOut_->absent.insert(file);
+    const bool exists = fs::exists(file, failed);
+    const bool admitted = folder_.admits(file);
+    // A reader that tries a name in the working directory first names nothing that is left out.
+    if (!exists) leftOut_->absent.insert(file);
+    if (exists && !admitted) leftOut_->outside.insert(file);
+    if (!exists || !admitted) return false;
     return fs::is_regular_file(file, failed) && fs::file_size(file, failed) <= kMaxFileBytes && !failed;
 }
 
@@ -67,6 +71,7 @@ Assimp::IOStream* ConfinedFiles::Open(const char* file, const char* mode) {
     const bool reads = std::string_view(mode).find_first_of("wa+") == std::string_view::npos;
     if (!reads || !mayOpen(file)) return nullptr;
     if (Assimp::IOStream* tidied = model_ == file ? openTidied() : nullptr) return tidied;
+    if (lowerCased(fs::path(file).extension().string()) == ".material") return openMaterial(file);
     return DefaultIOSystem::Open(file, mode);
 }
 
@@ -75,6 +80,16 @@ Assimp::IOStream* ConfinedFiles::openTidied() {
     if (!tidied_) tidied_ = tidiedBytes(model_, *leftOut_);
     if (tidied_->empty()) return nullptr;
     return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(tidied_->data()), tidied_->size());
+}
+
+Assimp::IOStream* ConfinedFiles::openMaterial(const std::string& file) {
+    const Result<std::vector<unsigned char>> bytes = readFile(file, kMaxFileBytes);
+    if (!bytes) return nullptr;
+    const std::string text =
+        tidyOgreMaterial({reinterpret_cast<const char*>(bytes.value().data()), bytes.value().size()});
+    auto* copy = new std::uint8_t[text.size()];  // which the stream owns
+    std::copy(text.begin(), text.end(), copy);
+    return new Assimp::MemoryIOStream(copy, text.size(), true);
 }
 
 bool ConfinedFiles::CreateDirectory(const std::string& /*path*/) {

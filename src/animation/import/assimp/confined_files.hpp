@@ -21,7 +21,8 @@ struct LeftOut {
 
 /// Assimp's door to the disk: opens the model and the ordinary files that its folder admits, for reading, up to
 /// kMaxFileBytes each; a Collada document as tidyCollada(), linkedCollada(), gatheredCollada() and
-/// straightenedCollada() leave it, a B3D file as tidyB3d(). Whatever else a format names (a material library, an
+/// straightenedCollada() leave it, a B3D file as tidyB3d(), a material script
+/// of Ogre as tidyOgreMaterial(). Whatever else a format names (a material library, an
 /// animation, a skin) is not there for it.
 class ConfinedFiles : public Assimp::DefaultIOSystem {
   public:
@@ -36,6 +37,7 @@ class ConfinedFiles : public Assimp::DefaultIOSystem {
   private:
     [[nodiscard]] bool mayOpen(const std::string& file) const;
     [[nodiscard]] Assimp::IOStream* openTidied();
+    [[nodiscard]] static Assimp::IOStream* openMaterial(const std::string& file);
 
     std::filesystem::path model_;
     ModelFolder folder_;
