@@ -1,12 +1,16 @@
 #include "physics/bullet/substep_solver.hpp"
 
 #include <algorithm>
+#include <array>
+#include <glm/vec3.hpp>
+#include <optional>
 #include <tuple>
 #include <utility>
 
 #include "physics/bullet/contact_impulses.hpp"
 #include "physics/bullet/convert.hpp"
 #include "physics/bullet/fetch_ahead.hpp"
+#include "physics/bullet/island_momentum.hpp"
 
 namespace lutka::physics {
 namespace {
@@ -467,16 +471,30 @@ void SubstepSolver::solve(std::span<btRigidBody* const> bodies, std::span<btType
               seconds);
 }
 
+// Whether nothing but its own bodies can push an island's. What calm() brings to rest is none: it would tumble on.
+bool SubstepSolver::isFree(const Island& island) const {
+    const auto within = [](const auto& row) { return row.a != kFixed && row.b != kFixed; };
+    const std::span joints = std::span(rows_.joints).subspan(island.firstJoint, island.joints);
+    const std::span contacts = std::span(rows_.contacts).subspan(island.firstContact, island.contacts);
+    return island.joints > 0 && !island.isSlowerThan(tuning_.quietSpeed) &&
+           std::all_of(joints.begin(), joints.end(), within) && std::all_of(contacts.begin(), contacts.end(), within);
+}
+
 void SubstepSolver::solve(std::span<Island> islands, float seconds) {
     takeRows(islands, seconds);
-    for (Island& island : islands)
-        sweeps_.calm(island, seconds);
+    std::array<std::optional<glm::dvec3>, SubstepSweeps::kTogether> momenta;
+    for (std::size_t i = 0; i < islands.size(); ++i) {
+        sweeps_.calm(islands[i], seconds);
+        if (isFree(islands[i])) momenta[i] = momentumBefore(rows_.bodiesOf(islands[i]), seconds);
+    }
     if (tuning_.warmStart) sweeps_.warmStart(islands);
     sweeps_.iterate(islands, false);
     sweeps_.bounce();
     store(islands, seconds);
     sweeps_.iterate(islands, true);
     move(islands, seconds);
+    for (std::size_t i = 0; i < islands.size(); ++i)
+        if (momenta[i]) restoreMomentum(rows_.bodiesOf(islands[i]), *momenta[i]);
 }
 
 }  // namespace lutka::physics

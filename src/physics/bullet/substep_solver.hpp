@@ -55,6 +55,7 @@ class SubstepSolver {
     template <class T>
     void sortByIsland(std::vector<T>& all, std::vector<T>& sorted, int Island::*first, int Island::*count);
     void solve(std::span<Island> islands, float seconds);
+    [[nodiscard]] bool isFree(const Island& island) const;
     void takeRows(std::span<Island> islands, float seconds);
     void takeBodiesOf(const Island& island, float seconds);
     void takeLinksOf(Island& island, float seconds);
