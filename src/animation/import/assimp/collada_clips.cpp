@@ -10,7 +10,10 @@
 #include <utility>
 #include <vector>
 
+#include "animation/import/assimp/collada_sources.hpp"
 #include "animation/import/assimp/collada_text.hpp"
+#include "animation/import/channel_values.hpp"
+#include "animation/import/clip_sampling.hpp"
 
 namespace lutka::animation::rig_import {
 namespace {
@@ -18,6 +21,8 @@ namespace {
 struct AnimationClip {
     std::string name;
     std::vector<std::string> animations;
+    double start = 0.0;  // seconds
+    double end = 0.0;    // not beyond the start where the file does not say
 };
 
 using Place = std::pair<std::size_t, std::size_t>;  // of an element: its first tag, and the one past it
@@ -25,8 +30,14 @@ using Place = std::pair<std::size_t, std::size_t>;  // of an element: its first 
 struct Animations {
     std::vector<AnimationClip> clips;
     std::map<std::string, Place> places;  // by their ids
+    std::set<std::string> names;          // that animations have
     std::size_t library = 0;              // the tag that opens it
 };
+
+double secondsIn(const ColladaTag& tag, std::string_view attribute) {
+    const std::vector<double> numbers = colladaNumbers(colladaAttribute(tag.text, attribute));
+    return numbers.empty() ? 0.0 : numbers.front();
+}
 
 Animations animationsOf(const std::vector<ColladaTag>& tags) {
     Animations found;
@@ -38,6 +49,7 @@ Animations animationsOf(const std::vector<ColladaTag>& tags) {
             found.library = i;
             hasLibrary = true;
         }
+        if (tag.opens("animation")) found.names.emplace(colladaAttribute(tag.text, "name"));
         if (tag.opens("animation") && !tag.isEmpty()) open.push_back(i);
         if (tag.closes("animation") && !open.empty()) {
             const std::string id(colladaAttribute(tags[open.back()].text, "id"));
@@ -46,7 +58,10 @@ Animations animationsOf(const std::vector<ColladaTag>& tags) {
         }
         if (tag.opens("animation_clip")) {
             const std::string_view name = colladaAttribute(tag.text, "name");
-            found.clips.push_back({std::string(name.empty() ? colladaAttribute(tag.text, "id") : name), {}});
+            found.clips.push_back({std::string(name.empty() ? colladaAttribute(tag.text, "id") : name),
+                                   {},
+                                   secondsIn(tag, "start"),
+                                   secondsIn(tag, "end")});
         }
         if (tag.opens("instance_animation") && !found.clips.empty())
             found.clips.back().animations.push_back(tag.target("url"));
@@ -126,21 +141,67 @@ std::string inOneAnimation(const std::string& text, const std::vector<ColladaTag
     return edits.take();
 }
 
+// The part of a clip that the file calls by a name; nothing where that is all of it, or none of it.
+std::optional<SourceClip> partOf(const SourceClip& whole, const AnimationClip& clip) {
+    constexpr double kRounding = 1e-3;
+    const auto [first, last] = spanOf(whole);
+    const double end = std::min(clip.end, last);
+    if (!(end > clip.start + kRounding) || (clip.start <= first + kRounding && end >= last - kRounding))
+        return std::nullopt;
+    SourceClip part = cutClip(whole, clip.start, end);
+    part.name = clip.name;
+    return part;
+}
+
+// The clips as the file states their beginnings and ends. Where they share a time line they become parts of it.
+void cutColladaClips(const std::vector<AnimationClip>& named, bool share, std::vector<SourceClip>& clips) {
+    constexpr std::size_t kMostKeys = 20'000'000;
+    if (share && clips.size() == 1) {
+        std::vector<SourceClip> parts;
+        std::size_t keys = 0;
+        for (const AnimationClip& clip : named) {
+            std::optional<SourceClip> part = partOf(clips[0], clip);
+            if (!part || keys > kMostKeys) return;
+            for (const SourceChannel& channel : part->channels)
+                keys += channel.times.size();
+            parts.push_back(*std::move(part));
+        }
+        clips = std::move(parts);
+        return;
+    }
+    for (SourceClip& clip : clips) {
+        const auto own =
+            std::find_if(named.begin(), named.end(), [&](const AnimationClip& one) { return one.name == clip.name; });
+        if (own == named.end() && (named.size() != 1 || clips.size() != 1)) continue;
+        if (std::optional<SourceClip> part = partOf(clip, own == named.end() ? named[0] : *own))
+            clip = *std::move(part);
+    }
+}
+
 }  // namespace
 
 void settleColladaClips(const ColladaDocument& document, SourceScene& scene) {
-    const std::vector<AnimationClip> named = animationsOf(document.tags).clips;
-    const std::string prefix = named.empty() ? std::string() : named.front().name + "_";
+    const Animations found = animationsOf(document.tags);
+    std::set<std::string> names = found.names;
+    names.erase("");
+    for (const AnimationClip& clip : found.clips)
+        names.insert(clip.name);
+    std::string prefix;  // the name of the first, and "_"
     for (SourceClip& clip : scene.clips) {
         const std::size_t half = clip.name.size() / 2;
         const bool isTwice = clip.name.size() % 2 == 1 && clip.name[half] == '_' &&
                              clip.name.substr(0, half) == clip.name.substr(half + 1);
-        const std::string rest = isTwice                         ? clip.name.substr(0, half)
-                                 : clip.name.starts_with(prefix) ? clip.name.substr(prefix.size())
-                                                                 : std::string();
-        const auto isRest = [&](const AnimationClip& one) { return one.name == rest; };
-        if (isTwice || std::any_of(named.begin(), named.end(), isRest)) clip.name = rest;
+        const bool isSecond = !prefix.empty() && clip.name.starts_with(prefix);
+        const std::string rest = isTwice    ? clip.name.substr(0, half)
+                                 : isSecond ? clip.name.substr(prefix.size())
+                                            : std::string();
+        if (isTwice || names.count(rest) > 0) clip.name = rest;
+        if (prefix.empty()) prefix = clip.name + "_";
     }
+    std::vector<std::vector<Place>> places;
+    for (const AnimationClip& clip : found.clips)
+        places.push_back(placesOf(clip, found));
+    cutColladaClips(found.clips, shareAnimations(places), scene.clips);
 }
 
 std::string gatheredCollada(std::string text) {

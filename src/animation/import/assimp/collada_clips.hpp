@@ -13,7 +13,8 @@ namespace lutka::animation::rig_import {
 [[nodiscard]] std::string gatheredCollada(std::string text);
 
 /// Gives the clips that Assimp made of a gathered document (gatheredCollada()) their names, to which it adds that of
-/// the first, or that very name once more. `document` is the file's own text, in which the clips still stand.
+/// the first, or that very name once more, and the beginnings and ends that the file states: of a time line that clips
+/// share each becomes its part. `document` is the file's own text, in which the clips still stand.
 void settleColladaClips(const ColladaDocument& document, SourceScene& scene);
 
 }  // namespace lutka::animation::rig_import

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "animation/import/assimp/collada_sources.hpp"
 #include "animation/import/assimp/collada_tags.hpp"
 #include "animation/import/assimp/collada_text.hpp"
 
@@ -23,86 +24,14 @@ constexpr double kJump = 1e-4;  // seconds
 // Of a document: many samplers may name one long source, so the file's size bounds nothing.
 constexpr std::size_t kMostNumbers = 10'000'000;
 
-struct Source {
-    std::vector<double> numbers;
-    std::vector<std::string_view> names;
-    bool bends = false;  // a name is of a curve that is no straight line
-    std::size_t stride = 1;
-    std::string_view params;  // the text in its accessor
-};
-
-// None where one of them is no number: half a curve would be another curve.
-std::vector<double> numbersIn(std::string_view text) {
-    std::vector<double> numbers;
-    const char* at = text.data();
-    const char* const end = text.data() + text.size();
-    while (at != end) {
-        double number = 0.0;
-        if (*at == '+') ++at;  // which from_chars refuses
-        const auto [next, error] = std::from_chars(at, end, number);
-        if (error != std::errc()) return {};
-        numbers.push_back(number);
-        at = std::find_if(next, end, [](char c) { return c != ' '; });
-    }
-    return numbers;
-}
-
-std::vector<std::string_view> splitWords(std::string_view text) {
-    std::vector<std::string_view> words;
-    while (!text.empty()) {
-        const std::size_t end = std::min(text.find(' '), text.size());
-        words.push_back(text.substr(0, end));
-        text.remove_prefix(std::min(end + 1, text.size()));
-    }
-    return words;
-}
-
-std::map<std::string, Source> sourcesOf(std::string_view text, const std::vector<ColladaTag>& tags) {
-    std::map<std::string, Source> sources;
-    Source* source = nullptr;
-    const ColladaTag* accessor = nullptr;  // that is open
-    bool inAnimations = false;
-    for (std::size_t i = 0; i + 1 < tags.size(); ++i) {
-        const ColladaTag& tag = tags[i];
-        if (tag.opens("library_animations")) inAnimations = true;
-        if (tag.closes("library_animations")) inAnimations = false;
-        if (!inAnimations) continue;
-        if (tag.opens("source")) {
-            source = &sources[std::string(colladaAttribute(tag.text, "id"))];
-            accessor = nullptr;
-        }
-        if (source == nullptr) continue;
-        std::string_view inside = text.substr(tag.end, tags[i + 1].start - tag.end);
-        if (inside.find('<') != std::string_view::npos) inside = {};  // a comment cuts it
-        if (tag.opens("float_array")) source->numbers = numbersIn(inside);
-        if (tag.opens("Name_array")) {
-            source->names = splitWords(inside);
-            source->bends = std::any_of(source->names.begin(), source->names.end(), [](std::string_view name) {
-                return name == "STEP" || name == "BEZIER" || name == "HERMITE";
-            });
-        }
-        if (tag.opens("accessor")) {
-            const std::string_view stride = colladaAttribute(tag.text, "stride");
-            std::from_chars(stride.data(), stride.data() + stride.size(), source->stride);
-            source->stride = std::max<std::size_t>(source->stride, 1);
-            accessor = tag.isEmpty() ? nullptr : &tag;
-        }
-        if (tag.closes("accessor") && accessor != nullptr) {
-            source->params = text.substr(accessor->end, tag.start - accessor->end);
-            accessor = nullptr;
-        }
-    }
-    return sources;
-}
-
 // One curve of a sampler, all components together.
 struct Curve {
     const std::vector<double>* times = nullptr;
-    const Source* values = nullptr;
+    const ColladaSource* values = nullptr;
     const std::vector<std::string_view>* kinds = nullptr;  // one a key: of the way to the next; null: straight
     // Tangents as points of time and value for each component, or as values alone: then at thirds of the way.
-    const Source* in = nullptr;
-    const Source* out = nullptr;
+    const ColladaSource* in = nullptr;
+    const ColladaSource* out = nullptr;
     // Of a turn about an axis. Angles between keys are not what Assimp makes of the turns about several axes there.
     bool isAngle = false;
 
@@ -110,11 +39,11 @@ struct Curve {
     [[nodiscard]] double value(std::size_t key, std::size_t component) const {
         return values->numbers[key * width() + component];
     }
-    [[nodiscard]] bool hasTimes(const Source& tangents) const {
+    [[nodiscard]] bool hasTimes(const ColladaSource& tangents) const {
         return tangents.numbers.size() >= times->size() * 2 * width();
     }
     [[nodiscard]] bool isSpline(std::size_t key) const {
-        const auto fits = [&](const Source* tangents) {
+        const auto fits = [&](const ColladaSource* tangents) {
             return tangents != nullptr && tangents->numbers.size() >= times->size() * width();
         };
         return (kindOf(key) == "BEZIER" || kindOf(key) == "HERMITE") && fits(in) && fits(out);
@@ -123,13 +52,18 @@ struct Curve {
         return kinds != nullptr ? (*kinds)[key] : std::string_view("LINEAR");
     }
     // Into how many pieces a straight turn from a key to the next is cut: of two degrees each. Where keys lie as near
-    // as frames, the turn is baked already, and keys between them would hide how many frames a second has.
+    // as frames, the turn is baked already, and keys between them would hide how many frames a second has. An axis that
+    // turns, too, is not cut: between keys it is no axis.
     [[nodiscard]] double piecesOfTurn(std::size_t key) const {
         constexpr double kPiece = 2.0;  // degrees
         constexpr double kMost = 10'000.0;
         constexpr double kFrame = 1.0 / 20.0 + 1e-4;  // seconds
-        const bool counts = isAngle && width() == 1 && (*times)[key + 1] - (*times)[key] > kFrame;
-        return counts ? std::clamp(std::ceil(std::abs(value(key + 1, 0) - value(key, 0)) / kPiece), 1.0, kMost) : 1.0;
+        if (!isAngle || (width() != 1 && width() != 4) || (*times)[key + 1] - (*times)[key] <= kFrame) return 1.0;
+        for (std::size_t axis = 0; axis + 1 < width(); ++axis) {
+            if (!(std::abs(value(key + 1, axis) - value(key, axis)) < 1e-4)) return 1.0;
+        }
+        const std::size_t angle = width() - 1;
+        return std::clamp(std::ceil(std::abs(value(key + 1, angle) - value(key, angle)) / kPiece), 1.0, kMost);
     }
     struct Point {
         double time = 0.0;
@@ -148,7 +82,8 @@ struct Curve {
         const Point way = tangent(*in, key + 1, component, 3.0 * third);
         return {end - way.time / 3.0, value(key + 1, component) - way.value / 3.0};
     }
-    [[nodiscard]] Point tangent(const Source& tangents, std::size_t key, std::size_t component, double third) const {
+    [[nodiscard]] Point tangent(const ColladaSource& tangents, std::size_t key, std::size_t component,
+                                double third) const {
         const std::size_t place = key * width() + component;
         if (!hasTimes(tangents)) return {third, tangents.numbers[place]};
         return {tangents.numbers[2 * place], tangents.numbers[2 * place + 1]};
@@ -227,39 +162,47 @@ Pieces piecesOf(const Curve& curve, std::size_t& left) {
     return pieces;
 }
 
-std::string sourceText(const std::string& id, const std::vector<double>& numbers, std::size_t stride,
-                       std::string_view params) {
-    std::string text =
-        fmt::format("<source id=\"{0}\"><float_array id=\"{0}-array\" count=\"{1}\">", id, numbers.size());
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-        text += fmt::format("{}{:.9g}", i > 0 ? " " : "", numbers[i]);
-    return text + fmt::format(
-                      "</float_array><technique_common><accessor source=\"#{}-array\" count=\"{}\" stride=\"{}\">{}"
-                      "</accessor></technique_common></source>",
-                      id, numbers.size() / stride, stride, params);
-}
-
-// The samplers whose channels turn something about an axis.
-std::set<std::string> angleSamplers(const std::vector<ColladaTag>& tags) {
+// The samplers whose channels turn something about an axis: by its angle, or by all four numbers of a rotation.
+std::set<std::string> angleSamplers(const std::vector<ColladaTag>& tags,
+                                    const std::map<std::string, std::string>& outputs,
+                                    const std::map<std::string, ColladaSource>& sources) {
     std::set<std::string> ids;
     for (const ColladaTag& tag : tags) {
-        if (tag.opens("channel") && colladaAttribute(tag.text, "target").ends_with(".ANGLE"))
-            ids.insert(tag.target("source"));
+        if (!tag.opens("channel")) continue;
+        const std::string_view target = colladaAttribute(tag.text, "target");
+        const std::string sampler = tag.target("source");
+        const auto output = outputs.find(sampler);
+        const auto source = output == outputs.end() ? sources.end() : sources.find(output->second);
+        const bool isWhole = source != sources.end() && source->second.stride == 4 &&
+                             target.find_first_of(".(") == std::string_view::npos;
+        if (isWhole || target.ends_with(".ANGLE")) ids.insert(sampler);
     }
     return ids;
 }
 
+// The sources of the values of all samplers.
+std::map<std::string, std::string> outputsOf(const std::vector<ColladaTag>& tags) {
+    std::map<std::string, std::string> outputs;
+    std::string sampler;
+    for (const ColladaTag& tag : tags) {
+        if (tag.opens("sampler")) sampler = colladaAttribute(tag.text, "id");
+        if (!sampler.empty() && tag.opens("input") && colladaAttribute(tag.text, "semantic") == "OUTPUT")
+            outputs[sampler] = tag.target("source");
+    }
+    return outputs;
+}
+
 // What stands in place of a sampler; empty where it stays: it is straight, or nothing is left of kMostNumbers.
 std::string straightSampler(const std::string& id, const std::map<std::string, std::string>& inputs,
-                            const std::map<std::string, Source>& sources, bool isAngle, std::size_t& left) {
-    const auto source = [&](const char* semantic) -> const Source* {
+                            const std::map<std::string, ColladaSource>& sources, bool isAngle, std::size_t& left) {
+    const auto source = [&](const char* semantic) -> const ColladaSource* {
         const auto input = inputs.find(semantic);
         const auto found = input == inputs.end() ? sources.end() : sources.find(input->second);
         return found == sources.end() ? nullptr : &found->second;
     };
-    const Source* times = source("INPUT");
-    const Source* values = source("OUTPUT");
-    const Source* kinds = source("INTERPOLATION");
+    const ColladaSource* times = source("INPUT");
+    const ColladaSource* values = source("OUTPUT");
+    const ColladaSource* kinds = source("INTERPOLATION");
     if (times == nullptr || values == nullptr) return {};
     const bool hasKinds = kinds != nullptr && kinds->names.size() >= times->numbers.size();
     if (!isAngle && (!hasKinds || !kinds->bends)) return {};
@@ -268,8 +211,8 @@ std::string straightSampler(const std::string& id, const std::map<std::string, s
     left -= std::min(left, times->params.size() + values->params.size());  // written once more, too
     const Pieces pieces = piecesOf(curve, left);
     if (left == 0 || pieces.times.size() <= times->numbers.size()) return {};
-    return sourceText(id + "-times", pieces.times, 1, times->params) +
-           sourceText(id + "-values", pieces.values, curve.width(), values->params) +
+    return colladaSourceText(id + "-times", pieces.times, 1, times->params) +
+           colladaSourceText(id + "-values", pieces.values, curve.width(), values->params) +
            fmt::format(
                "<sampler id=\"{0}\"><input semantic=\"INPUT\" source=\"#{0}-times\"/><input "
                "semantic=\"OUTPUT\" source=\"#{0}-values\"/></sampler>",
@@ -291,10 +234,11 @@ bool holdsOtherCurves(const ColladaDocument& document) {
 
 StraightenedCollada straightenedCollada(std::string text) {
     const auto holds = [&](const char* word) { return text.find(word) != std::string::npos; };
-    if (!holds("BEZIER") && !holds("HERMITE") && !holds("STEP") && !holds(".ANGLE\"")) return {std::move(text)};
+    if (!holds("BEZIER") && !holds("HERMITE") && !holds("STEP") && !holds(".ANGLE\"") && !holds("stride=\"4\""))
+        return {std::move(text)};
     const std::vector<ColladaTag> tags = colladaTags(text);
-    const std::map<std::string, Source> sources = sourcesOf(text, tags);
-    const std::set<std::string> angles = angleSamplers(tags);
+    const std::map<std::string, ColladaSource> sources = colladaSources(text, tags);
+    const std::set<std::string> angles = angleSamplers(tags, outputsOf(tags), sources);
     std::size_t left = kMostNumbers;
     ColladaEdits edits(text);
     for (std::size_t i = 0; i < tags.size(); ++i) {

@@ -16,20 +16,30 @@
 namespace lutka::animation::rig_import {
 namespace {
 
-// Elements of an animation that others name by their ids.
+// Elements whose parts name each other by ids that mean nothing elsewhere.
+bool isScope(const ColladaTag& tag) {
+    return tag.opens("animation") || tag.opens("controller") || tag.opens("geometry");
+}
+
+bool endsScope(const ColladaTag& tag) {
+    return tag.closes("animation") || tag.closes("controller") || tag.closes("geometry");
+}
+
+// Parts of them that others name by their ids.
 bool isNamed(const ColladaTag& tag) {
-    constexpr std::array<std::string_view, 4> kNamed = {"source", "sampler", "float_array", "Name_array"};
+    constexpr std::array<std::string_view, 6> kNamed = {"source",     "sampler",     "float_array",
+                                                        "Name_array", "IDREF_array", "vertices"};
     return std::any_of(kNamed.begin(), kNamed.end(), [&](std::string_view name) { return tag.opens(name); });
 }
 
-// Ids that were taken already, and what the animations that are open call them now.
+// Ids that were taken already, and what the scopes that are open call them now.
 class Ids {
   public:
     explicit Ids(const std::vector<ColladaTag>& tags) {
         int depth = 0;
         for (const ColladaTag& tag : tags) {
-            if (tag.closes("animation")) --depth;
-            if (tag.opens("animation") && !tag.isEmpty()) ++depth;
+            if (endsScope(tag)) --depth;
+            if (isScope(tag) && !tag.isEmpty()) ++depth;
             const std::string_view id = colladaAttribute(tag.text, "id");
             if (id.empty()) continue;
             all_.insert(id);
@@ -44,9 +54,9 @@ class Ids {
             names_[id].pop_back();
         scopes_.pop_back();
     }
-    [[nodiscard]] bool inAnimation() const { return !scopes_.empty(); }
+    [[nodiscard]] bool inScope() const { return !scopes_.empty(); }
 
-    // What the element with this id is called from now on, in the innermost animation.
+    // What the element with this id is called from now on, in the innermost scope.
     std::string take(std::string_view id) {
         std::string own(id);
         if (!taken_.insert(id).second) {
@@ -67,7 +77,7 @@ class Ids {
   private:
     std::unordered_set<std::string_view> all_;
     std::unordered_set<std::string_view> taken_;
-    std::vector<std::vector<std::string>> scopes_;  // ids that each open animation took, the innermost last
+    std::vector<std::vector<std::string>> scopes_;  // ids that each open scope took, the innermost last
     std::unordered_map<std::string, std::vector<std::string>> names_;  // what an id is called, the innermost last
     std::size_t count_ = 0;
 };
@@ -120,7 +130,6 @@ std::string withOwnSamplers(std::string text) {
 }
 
 std::string withOwnIds(std::string text) {
-    if (text.find("<animation") == std::string::npos) return text;
     const std::vector<ColladaTag> tags = colladaTags(text);
     Ids ids(tags);
     ColladaEdits edits(text);
@@ -130,9 +139,9 @@ std::string withOwnIds(std::string text) {
         edits.replace(start, start + old.size(), with);
     };
     for (const ColladaTag& tag : tags) {
-        if (tag.opens("animation") && !tag.isEmpty()) ids.open();
-        if (tag.closes("animation")) ids.close();
-        if (!ids.inAnimation()) continue;
+        if (isScope(tag) && !tag.isEmpty()) ids.open();
+        if (endsScope(tag)) ids.close();
+        if (!ids.inScope()) continue;
         if (const std::string_view id = colladaAttribute(tag.text, "id"); !id.empty() && isNamed(tag)) {
             replace(id, ids.take(id));
             continue;

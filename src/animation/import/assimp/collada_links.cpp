@@ -189,20 +189,41 @@ bool holdsMorphs(const ColladaDocument& document) {
     return false;
 }
 
-bool sharesSkin(const ColladaDocument& document) {
-    std::map<std::string, std::string> skeletonOf;  // the first that is named, by controller
-    std::string controller;
-    for (std::size_t i = 0; i + 1 < document.tags.size(); ++i) {
-        const ColladaTag& tag = document.tags[i];
-        if (tag.opens("instance_controller")) controller = tag.target("url");
-        if (tag.closes("instance_controller")) controller.clear();
-        if (controller.empty() || !tag.opens("skeleton")) continue;
-        const std::size_t next = document.tags[i + 1].start;
-        const auto [known, isNew] = skeletonOf.try_emplace(controller, document.text.substr(tag.end, next - tag.end));
-        if (!isNew && known->second != document.text.substr(tag.end, next - tag.end)) return true;
-        controller.clear();  // a skin may have several
+ShownCollada shownCollada(std::string text) {
+    const std::vector<ColladaTag> tags = colladaTags(text);
+    std::vector<std::size_t> scenes;
+    bool names = false;  // the document one that is there
+    std::string shown;
+    std::size_t end = std::string::npos;
+    ColladaChanges changes;
+    for (std::size_t i = 0; i < tags.size(); ++i) {
+        if (tags[i].opens("visual_scene")) scenes.push_back(i);
+        if (tags[i].opens("instance_visual_scene")) {
+            shown = tags[i].target("url");
+            changes.push_back({tags[i].start, tags[i].end, tags[i].isEmpty() ? "" : "<extra>"});
+        }
+        if (tags[i].closes("instance_visual_scene")) changes.push_back({tags[i].start, tags[i].end, "</extra>"});
+        if (tags[i].closes("COLLADA")) end = tags[i].start;
     }
-    return false;
+    for (const std::size_t scene : scenes)
+        names = names || (!shown.empty() && colladaAttribute(tags[scene].text, "id") == shown);
+    if (names || scenes.empty() || end == std::string::npos) return {std::move(text), {}};
+    const ColladaTag& first = tags[scenes.front()];
+    std::string id(colladaAttribute(first.text, "id"));
+    if (id.empty()) {
+        id = "own-scene";
+        const std::size_t place = first.start + std::string_view("<visual_scene").size();
+        changes.push_back({place, place, " id=\"" + id + "\""});
+    }
+    changes.push_back({end, end, "<scene><instance_visual_scene url=\"#" + id + "\"/></scene>"});
+    std::sort(changes.begin(), changes.end(),
+              [](const ColladaChange& a, const ColladaChange& b) { return a.start < b.start; });
+    ColladaEdits edits(text);
+    for (const ColladaChange& change : changes)
+        edits.replace(change.start, change.end, change.with);
+    ShownCollada out{edits.take(), {}};
+    if (scenes.size() > 1) out.warning = "the file does not say which of its scenes it shows: took the first";
+    return out;
 }
 
 std::string linkedCollada(std::string text) {

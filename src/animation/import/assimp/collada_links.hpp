@@ -14,7 +14,11 @@ namespace lutka::animation::rig_import {
 /// Whether a document's morph targets are on from the start: a weight is not 0.
 [[nodiscard]] bool holdsMorphs(const ColladaDocument& document);
 
-/// Whether a document shows one skin several times, with other skeletons each time: Assimp binds all to the first.
-[[nodiscard]] bool sharesSkin(const ColladaDocument& document);
+/// A document that shows the scene which it means: where it names none, or one that is not there, its first.
+struct ShownCollada {
+    std::string text;
+    std::string warning;  ///< Where there are several to choose from; else empty.
+};
+[[nodiscard]] ShownCollada shownCollada(std::string text);
 
 }  // namespace lutka::animation::rig_import

@@ -36,6 +36,14 @@ struct ColladaDocument {
 [[nodiscard]] std::optional<std::size_t> pastColladaElement(const std::vector<ColladaTag>& tags, std::size_t first,
                                                             std::string_view name);
 
+/// What comes in place of a part of a text; parts of no length are places.
+struct ColladaChange {
+    std::size_t start = 0;
+    std::size_t end = 0;
+    std::string with;
+};
+using ColladaChanges = std::vector<ColladaChange>;
+
 /// Replaces parts of a text, in their order. Keeps a reference to it.
 class ColladaEdits {
   public:

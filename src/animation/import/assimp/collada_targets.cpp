@@ -1,65 +1,160 @@
 #include "animation/import/assimp/collada_targets.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
+#include <cctype>
+#include <optional>
 #include <set>
 #include <string_view>
-#include <vector>
+#include <unordered_map>
+#include <utility>
 
-#include "animation/import/assimp/collada_tags.hpp"
 #include "animation/import/assimp/collada_text.hpp"
+#include "animation/import/name_list.hpp"
 #include "core/letter_case.hpp"
 
 namespace lutka::animation::rig_import {
 namespace {
 
-// The names by which channels call rotations, but for those that name something else, too.
-std::set<std::string_view> rotationSids(const std::vector<ColladaTag>& tags) {
-    std::set<std::string_view> rotations;
-    std::set<std::string_view> others;
-    for (const ColladaTag& tag : tags) {
-        constexpr std::array<const char*, 4> kOthers = {"matrix", "translate", "scale", "lookat"};
-        const bool isOther =
-            std::any_of(kOthers.begin(), kOthers.end(), [&](const char* name) { return tag.opens(name); });
-        if (tag.opens("rotate")) rotations.insert(colladaAttribute(tag.text, "sid"));
-        if (isOther) others.insert(colladaAttribute(tag.text, "sid"));
+// What a target leads to.
+struct TargetPlace {
+    std::size_t node = 0;
+    const ColladaTransform* transform = nullptr;
+    std::string_view member;  // ".X", "(3)", "(0)(3)"; empty: the whole
+};
+
+// The node that the first part of a target calls, and what follows it. Ids may hold slashes.
+std::optional<std::pair<std::size_t, std::string_view>> nodeOfTarget(std::string_view target,
+                                                                     const ColladaNodes& nodes) {
+    for (std::size_t slash = target.rfind('/'); slash != std::string_view::npos && slash > 0;
+         slash = target.rfind('/', slash - 1)) {
+        if (const auto node = nodes.withId(target.substr(0, slash))) return std::pair(*node, target.substr(slash + 1));
     }
-    for (const std::string_view other : others)
-        rotations.erase(other);
-    return rotations;
+    const std::size_t slash = target.find('/');
+    if (slash == std::string_view::npos) return std::nullopt;
+    std::optional<std::size_t> node = nodes.withSid(target.substr(0, slash), {});
+    if (!node) node = nodes.withName(target.substr(0, slash));
+    return node ? std::optional(std::pair(*node, target.substr(slash + 1))) : std::nullopt;
 }
 
-// What stands in place of a target; the target itself where it may stay.
-std::string plainTarget(std::string_view target, const std::set<std::string_view>& rotations) {
-    constexpr std::string_view kFourth = "(3)";
-    const std::size_t slash = target.rfind('/');
-    if (slash == std::string_view::npos) return std::string(target);
-    const std::string_view part = target.substr(slash + 1);
-    if (part.ends_with(kFourth) && rotations.count(part.substr(0, part.size() - kFourth.size())) > 0)
-        return std::string(target.substr(0, target.size() - kFourth.size())) + ".ANGLE";
-    const std::size_t dot = target.rfind('.');
-    if (dot == std::string_view::npos || dot < slash) return std::string(target);
-    const std::string member = lowerCased(std::string(target.substr(dot + 1)));
-    for (const char* known : {"X", "Y", "Z", "ANGLE"})
-        if (member == lowerCased(known)) return std::string(target.substr(0, dot + 1)) + known;
-    return std::string(target);
+const ColladaTransform* stepCalled(const ColladaNode& node, std::string_view sid) {
+    const auto found = std::find_if(node.transforms.begin(), node.transforms.end(),
+                                    [&](const ColladaTransform& transform) { return transform.sid == sid; });
+    return sid.empty() || found == node.transforms.end() ? nullptr : &*found;
 }
+
+std::optional<TargetPlace> placeOfTarget(std::string_view target, const ColladaNodes& nodes) {
+    constexpr std::size_t kLongest = 4096;  // many slashes are looked at one by one
+    if (target.size() > kLongest) return std::nullopt;
+    auto at = nodeOfTarget(target, nodes);
+    // Nodes below it by their sids.
+    for (std::size_t slash = 0; at && (slash = at->second.find('/')) != std::string_view::npos;) {
+        const std::size_t root = at->first;
+        const auto next = nodes.withSid(at->second.substr(0, slash), {&root, 1});
+        at = next ? std::optional(std::pair(*next, at->second.substr(slash + 1))) : std::nullopt;
+    }
+    if (!at) return std::nullopt;
+    const ColladaNode& node = nodes.all()[at->first];
+    std::string_view sid = at->second;
+    TargetPlace place{at->first, stepCalled(node, sid), {}};
+    const std::size_t member = std::min(sid.rfind('.'), sid.find('('));
+    if (place.transform == nullptr && member != std::string_view::npos) {
+        place.member = sid.substr(member);
+        place.transform = stepCalled(node, sid.substr(0, member));
+    }
+    return place.transform == nullptr ? std::nullopt : std::optional(place);
+}
+
+bool isIndex(std::string_view member) {
+    return member.size() >= 3 && member.front() == '(' && member.back() == ')' &&
+           std::all_of(member.begin(), member.end(),
+                       [](char c) { return c == '(' || c == ')' || std::isdigit(static_cast<unsigned char>(c)) != 0; });
+}
+
+// A member as Assimp calls it; nothing where there is no such member.
+std::optional<std::string> plainMember(const TargetPlace& place) {
+    const std::string_view kind = place.transform->kind;
+    if (place.member.empty()) return std::string();
+    if (kind == "matrix") return isIndex(place.member) ? std::optional(std::string(place.member)) : std::nullopt;
+    if (kind == "lookat") return std::nullopt;
+    const std::string member = lowerCased(std::string(place.member));
+    const std::size_t known = kind == "rotate" ? 4 : 3;
+    constexpr const char* kNames[] = {".X", ".Y", ".Z", ".ANGLE"};
+    for (std::size_t i = 0; i < known; ++i) {
+        if (member == lowerCased(kNames[i]) || member == fmt::format("({})", i)) return kNames[i];
+    }
+    return std::nullopt;
+}
+
+// What channels move that are no transforms of nodes.
+class OtherTargets {
+  public:
+    explicit OtherTargets(const std::vector<ColladaTag>& tags) {
+        bool inMorph = false;
+        for (const ColladaTag& tag : tags) {
+            if (tag.opens("morph")) inMorph = true;
+            if (tag.closes("morph")) inMorph = false;
+            const bool morphs = inMorph || tag.opens("controller");
+            ids_.emplace(colladaAttribute(tag.text, "id"), morphs);
+            sids_.insert(colladaAttribute(tag.text, "sid"));
+        }
+    }
+
+    void add(std::string_view target, bool isTransform) {
+        const auto element = ids_.find(target.substr(0, target.find_first_of("/(")));
+        const std::string_view rest = target.substr(std::min(target.rfind('/'), target.size()));
+        const std::string_view sid = rest.empty() ? rest : rest.substr(1, rest.find_first_of(".(") - 1);
+        if (isTransform)
+            absent_.emplace_back(target);  // but its member
+        else if (element != ids_.end() && element->second)
+            morphs_ = true;
+        else if (element != ids_.end() && (sid.empty() || sids_.count(sid) > 0))
+            others_ = true;
+        else
+            absent_.emplace_back(target);
+    }
+
+    void tell(std::vector<std::string>& warnings) const {
+        if (morphs_) warnings.emplace_back("left out: animations of morph targets");
+        if (others_) warnings.emplace_back("left out: animations of other things than nodes");
+        if (!absent_.empty())
+            warnings.push_back(fmt::format("left out: animations of what is not in the file: {}", firstOf(absent_)));
+    }
+
+  private:
+    std::unordered_map<std::string_view, bool> ids_;  // → whether it is part of a morph
+    std::set<std::string_view> sids_;
+    bool morphs_ = false;
+    bool others_ = false;
+    std::vector<std::string> absent_;
+};
 
 }  // namespace
 
-std::string withPlainTargets(const std::string& document) {
-    const std::vector<ColladaTag> tags = colladaTags(document);
-    const std::set<std::string_view> rotations = rotationSids(tags);
-    ColladaEdits edits(document);
-    for (const ColladaTag& tag : tags) {
+void settleTargets(const ColladaDocument& document, const ColladaNodes& nodes, ColladaChanges& changes,
+                   std::vector<std::string>& warnings) {
+    const std::vector<ColladaTag>& tags = document.tags;
+    OtherTargets others(tags);
+    for (std::size_t i = 0; i < tags.size(); ++i) {
+        const ColladaTag& tag = tags[i];
         if (!tag.opens("channel")) continue;
         const std::string_view target = colladaAttribute(tag.text, "target");
-        const std::string plain = plainTarget(target, rotations);
+        const std::optional<TargetPlace> place = placeOfTarget(target, nodes);
+        const std::optional<std::string> member = place ? plainMember(*place) : std::nullopt;
+        if (!member) {
+            others.add(target, place.has_value());
+            const bool closes = !tag.isEmpty() && i + 1 < tags.size() && tags[i + 1].closes("channel");
+            if (tag.isEmpty() || closes) changes.push_back({tag.start, closes ? tags[i + 1].end : tag.end, ""});
+            continue;
+        }
+        const ColladaNode& node = nodes.all()[place->node];
+        const std::string plain = fmt::format("{}/{}{}", node.ownId, place->transform->ownSid, *member);
         if (plain == target) continue;
         const std::size_t start = tag.start + static_cast<std::size_t>(target.data() - tag.text.data());
-        edits.replace(start, start + target.size(), plain);
+        changes.push_back({start, start + target.size(), plain});
     }
-    return edits.take();
+    others.tell(warnings);
 }
 
 }  // namespace lutka::animation::rig_import

@@ -53,7 +53,27 @@ std::string plainTag(std::string_view tag) {
     return std::string(tag);
 }
 
+// The prefix by which a document calls Collada's namespace in all of its tags, with its colon; empty as a rule.
+std::string_view prefixOf(std::string_view text) {
+    constexpr std::string_view kRoot = ":COLLADA";
+    const std::size_t root = text.find(kRoot);
+    const std::size_t start = root == std::string_view::npos ? root : text.rfind('<', root);
+    if (start == std::string_view::npos) return {};
+    const std::string_view prefix = text.substr(start + 1, root - start);
+    const bool isName = prefix.size() > 1 && prefix.find_first_of(" \t\r\n\"'<>!?") == std::string_view::npos;
+    return isName ? prefix : std::string_view();
+}
+
+// A tag whose name stands without that prefix.
+std::string withoutPrefix(std::string tag, std::string_view prefix) {
+    const std::size_t name = tag.starts_with("</") ? 2 : 1;
+    if (!prefix.empty() && std::string_view(tag).substr(std::min(name, tag.size())).starts_with(prefix))
+        tag.erase(name, prefix.size());
+    return tag;
+}
+
 std::string withPlainTags(std::string_view text) {
+    const std::string_view prefix = prefixOf(text.substr(0, 4096));
     std::string out;
     out.reserve(text.size());
     for (std::size_t at = 0; at < text.size();) {
@@ -62,7 +82,7 @@ std::string withPlainTags(std::string_view text) {
         const std::size_t end = tag < text.size() ? endOfColladaMarkup(text, tag) : tag;
         const std::string_view markup = text.substr(tag, end - tag);
         const bool isTag = !markup.starts_with("<!") && !markup.starts_with("<?");
-        isTag ? out += plainTag(markup) : out += markup;
+        isTag ? out += withoutPrefix(plainTag(markup), prefix) : out += markup;
         at = end;
     }
     return out;

@@ -15,7 +15,9 @@
 #include "animation/import/assimp/collada_curves.hpp"
 #include "animation/import/assimp/collada_ids.hpp"
 #include "animation/import/assimp/collada_links.hpp"
-#include "animation/import/assimp/collada_targets.hpp"
+#include "animation/import/assimp/collada_matrices.hpp"
+#include "animation/import/assimp/collada_nodes.hpp"
+#include "animation/import/assimp/collada_sources.hpp"
 #include "animation/import/assimp/collada_text.hpp"
 #include "animation/import/assimp/ogre_material.hpp"
 #include "animation/import/source_limits.hpp"
@@ -27,6 +29,20 @@ namespace lutka::animation::rig_import {
 namespace fs = std::filesystem;
 
 namespace {
+
+// A Collada document as Assimp reads it rightly; each step takes the text that the one before it leaves.
+std::string assimpsCollada(std::string_view bytes, LeftOut& leftOut) {
+    ShownCollada shown = shownCollada(tidyCollada(bytes));
+    if (!shown.warning.empty()) leftOut.warnings.push_back(shown.warning);
+    SettledCollada settled = settledCollada(withOwnIds(linkedCollada(std::move(shown.text))));
+    leftOut.nodeNames = std::move(settled.names);
+    leftOut.warnings.insert(leftOut.warnings.end(), settled.warnings.begin(), settled.warnings.end());
+    StraightenedCollada curves = straightenedCollada(gatheredCollada(withOwnSamplers(withPlainParams(settled.text))));
+    StraightenedCollada matrices = withWholeMatrices(std::move(curves.text));
+    if (!curves.isWhole || !matrices.isWhole)
+        leftOut.warnings.emplace_back("curves play straight from key to key, for the file holds too many of them");
+    return std::move(matrices.text);
+}
 
 // Empty when the file is neither Collada nor B3D.
 std::string tidiedBytes(const fs::path& file, LeftOut& leftOut) {
@@ -40,10 +56,7 @@ std::string tidiedBytes(const fs::path& file, LeftOut& leftOut) {
     if (!bytes) return {};
     const std::string_view whole(reinterpret_cast<const char*>(bytes.value().data()), bytes.value().size());
     if (!collada) return tidyB3d(whole);
-    StraightenedCollada out = straightenedCollada(
-        gatheredCollada(withOwnSamplers(withOwnIds(withPlainTargets(linkedCollada(tidyCollada(whole)))))));
-    leftOut.curves = !out.isWhole;
-    return std::move(out.text);
+    return assimpsCollada(whole, leftOut);
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <set>
 #include <utility>
 
 #include "animation/import/assimp/clip_conversion.hpp"
@@ -73,19 +75,25 @@ SourceConvention conventionOf(const aiScene& scene, const std::filesystem::path&
 
 // What Assimp leaves out of a Collada document: who wrote it, the names of nodes, which it calls by their ids, and of
 // clips. Tells what is left out.
-void completeByDocument(const std::filesystem::path& file, SourceScene& out) {
+void completeByDocument(const std::filesystem::path& file, const LeftOut& leftOut, SourceScene& out) {
+    for (SourceNode& node : out.nodes) {
+        if (const auto own = leftOut.nodeNames.find(node.name); own != leftOut.nodeNames.end()) node.name = own->second;
+    }
+    out.warnings.insert(out.warnings.end(), leftOut.warnings.begin(), leftOut.warnings.end());
     if (lowerCased(file.extension().string()) != ".dae") return;
     const Result<std::vector<unsigned char>> bytes = readFile(file);
     if (!bytes) return;
     const std::string text =
         decodedCollada({reinterpret_cast<const char*>(bytes.value().data()), bytes.value().size()});
-    if (out.clips.empty() && text.find("<channel ") != std::string::npos)
+    const auto tellsOfAnimations = [](const std::string& warning) {
+        return warning.find("animations") != std::string::npos;
+    };
+    const bool told = std::any_of(leftOut.warnings.begin(), leftOut.warnings.end(), tellsOfAnimations);
+    if (!told && out.clips.empty() && text.find("<channel ") != std::string::npos)
         out.warnings.emplace_back("left out: animations, for they move nothing that stands in the scene itself");
     const ColladaDocument document(text);
     if (holdsMorphs(document))
         out.warnings.emplace_back("left out: morph targets, which the file has on from the start");
-    if (sharesSkin(document))
-        out.warnings.emplace_back("one skin is shown with several skeletons: all of its meshes follow the first");
     if (!out.clips.empty() && holdsOtherCurves(document))
         out.warnings.emplace_back("curves of the kinds CARDINAL and BSPLINE play straight from key to key");
     if (!out.clips.empty()) settleColladaClips(document, out);
@@ -116,9 +124,7 @@ Result<SourceScene> readWithAssimp(const std::filesystem::path& file, const Impo
     addMeshes(scene, nodes, out);
     addClips(scene, nodes, out);
     convertMaterials(scene, folder, options.loadTextures, out);
-    completeByDocument(file, out);
-    if (opened.value().leftOut->curves)
-        out.warnings.emplace_back("curves play straight from key to key, for the file holds too many of them");
+    completeByDocument(file, *opened.value().leftOut, out);
     if (const std::set<std::string>& refused = opened.value().leftOut->outside; !refused.empty()) {
         out.warnings.push_back(fmt::format(
             "{} files that the model names lie outside of its folder and were left out: {}; --allow-outside takes them",
