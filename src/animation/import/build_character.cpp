@@ -19,6 +19,7 @@
 #include "animation/import/clip_sampling.hpp"
 #include "animation/import/figure_choice.hpp"
 #include "animation/import/hidden_meshes.hpp"
+#include "animation/import/humanoid_block.hpp"
 #include "animation/import/inside_out.hpp"
 #include "animation/import/mesh_conversion.hpp"
 #include "animation/import/node_tree.hpp"
@@ -320,6 +321,11 @@ Result<Character> buildCharacter(SourceScene source, const std::filesystem::path
         character.vrmHumanoid[role] = tree.nodes[node].joint;
     buildMotion(source, tree, bind, units, character);
     if (!validate(character.skeleton).empty()) return tooLarge("joints", file);
+    if (const auto against = contradictionIn(character.vrmHumanoid, character.skeleton)) {
+        character.warnings.push_back(
+            fmt::format("the file's own humanoid map is not believed, for the figure speaks against it: {}", *against));
+        character.vrmHumanoid.clear();
+    }
     return character;
 }
 

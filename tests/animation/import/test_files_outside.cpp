@@ -5,8 +5,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 #include <fstream>
+#include <memory>
 
+#include "animation/import/assimp/confined_files.hpp"
 #include "animation/import/checks.hpp"
 #include "animation/import/gltf_file.hpp"
 #include "animation/import/model_folder.hpp"
@@ -251,4 +255,51 @@ TEST_CASE("JSON that is nested without end is refused by name of the limit") {
     file.json["extras"] = {{"text", std::string(1000, '{') + "\\\"" + std::string(1000, '[')}};
     file.saveText(folder / "text.gltf");
     CHECK(importCharacter(folder / "text.gltf").ok());
+}
+
+TEST_CASE("a bare name that a reader tries first is not told as a file outside of the model's folder") {
+    const TemporaryFolder folder;
+    std::ofstream(folder / "fish.mesh") << "x";
+    const auto leftOut = std::make_shared<rig_import::LeftOut>();
+    const std::filesystem::path model = folder / "fish.mesh";
+    const rig_import::ConfinedFiles files(model, rig_import::ModelFolder(model, false), leftOut);
+    CHECK_FALSE(files.Exists("fish.skeleton"));
+    CHECK_FALSE(files.Exists("Examples/Fish.material"));
+    CHECK(leftOut->outside.empty());
+    CHECK_FALSE(files.Exists("../fish.skeleton"));
+    CHECK_FALSE(files.Exists("/etc/hostname"));
+    CHECK(leftOut->outside.size() == 2);
+}
+
+TEST_CASE("parts of models, and Ogre meshes of other versions, are refused with what to do") {
+    const TemporaryFolder folder;
+    const auto refusal = [&](const std::string& name, const std::string& bytes) {
+        std::ofstream(folder / name, std::ios::binary) << bytes;
+        const Result<Character> read = importCharacter(folder / name);
+        REQUIRE_FALSE(read.ok());
+        CHECK(read.error().code == ErrorCode::input);
+        return read.error().text();
+    };
+    for (const std::string version : {"1.40", "1.41", "1.100"}) {
+        const std::string text = refusal("fish.mesh", std::string("\0\x10", 2) + "[MeshSerializer_v" + version + "]\n");
+        CHECK(text.find("is an Ogre mesh of version " + version + "; 1.8 is read") != std::string::npos);
+        CHECK(text.find("OgreMeshUpgrader -V 1.8") != std::string::npos);
+    }
+    // A file of textures alone: one of four pixels, and its palette.
+    std::string header(244, '\0');
+    const auto put = [&](std::size_t place, std::uint32_t value) { std::memcpy(&header[place], &value, 4); };
+    header.replace(0, 4, "IDST");
+    put(4, 10);
+    header.replace(8, 8, "manT.mdl");
+    put(72, 244 + 80 + 4 + 768);
+    put(180, 1);
+    put(184, 244);
+    put(188, 244 + 80);
+    std::string texture(80, '\0');
+    texture.replace(0, 8, "skin.bmp");
+    const std::array<std::uint32_t, 4> sizes = {0, 2, 2, 244 + 80};
+    std::memcpy(&texture[64], sizes.data(), 16);
+    const std::string text = refusal("manT.mdl", header + texture + std::string(4 + 768, '\0'));
+    CHECK(text.find("pictures of a Half-Life model without the model") != std::string::npos);
+    CHECK(text.find("no T at its end") != std::string::npos);
 }

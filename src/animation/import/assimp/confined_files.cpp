@@ -68,11 +68,14 @@ bool ConfinedFiles::mayOpen(const std::string& file) const {
     if (model_ == file) return true;
     std::error_code failed;
     const bool exists = fs::exists(file, failed);
-    const bool admitted = folder_.admits(file);
-    // A reader that tries a name in the working directory first names nothing that is left out.
     if (!exists) leftOut_->absent.insert(file);
-    if (exists && !admitted) leftOut_->outside.insert(file);
-    if (!exists || !admitted) return false;
+    if (!folder_.admits(file)) {
+        // Readers ask by a bare name, too, before they put the folder before it.
+        const fs::path name = fs::path(file).lexically_normal();
+        const bool isBare = name.is_relative() && *name.begin() != ".." && file.rfind(folder_.path().string(), 0) != 0;
+        if (exists && !isBare) leftOut_->outside.insert(file);
+        return false;
+    }
     return fs::is_regular_file(file, failed) && fs::file_size(file, failed) <= kMaxFileBytes && !failed;
 }
 

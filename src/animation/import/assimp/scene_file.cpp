@@ -68,8 +68,8 @@ const aiScene* read(Assimp::Importer& importer, const fs::path& file, std::strin
 // What Assimp says that means nothing to whoever has the file, in plain words.
 struct PlainWords {
     std::string_view said;
-    const char* message;
-    const char* mend;  // null: the usual one
+    std::string_view message;  // "{}" stands for the version that follows what is said
+    const char* mend;          // null: the usual one
 };
 
 constexpr std::array kPlainWords = {
@@ -86,8 +86,10 @@ constexpr std::array kPlainWords = {
                "take the model's own .mdl file"},
     PlainWords{"HL2 MDLs are not implemented", "is a model of Half-Life 2 (Source), which is not read",
                "decompile it (Crowbar) and export glTF 2.0 or FBX from Blender"},
-    PlainWords{"[MeshSerializer_v", "is an Ogre mesh of a version that is not read",
-               "run OgreMeshUpgrader on it, or export it again as glTF 2.0 or FBX"},
+    PlainWords{"[MeshSerializer_v", "is an Ogre mesh of version {}; 1.8 is read",
+               "run OgreMeshUpgrader -V 1.8 on it, or export it again as glTF 2.0 or FBX"},
+    PlainWords{"[Serializer_v", "its skeleton is an Ogre one of version {}; 1.10 and 1.80 are read",
+               "run OgreMeshUpgrader -V 1.8 on it, or export it again as glTF 2.0 or FBX"},
     PlainWords{"Invalid Ogre Mesh file header", "is no Ogre mesh, though its name says so", nullptr},
     PlainWords{" does not hold (", "is damaged, or holds what the reader of its format does not know", nullptr},
 };
@@ -96,7 +98,18 @@ std::optional<Error> inPlainWords(const fs::path& file, const std::string& why) 
     const auto found = std::find_if(kPlainWords.begin(), kPlainWords.end(),
                                     [&](const PlainWords& words) { return why.find(words.said) != std::string::npos; });
     if (found == kPlainWords.end()) return std::nullopt;
-    return unreadable(file, found->message, found->mend == nullptr ? kUsualMend : found->mend);
+    std::string message(found->message);
+    if (const std::size_t place = message.find("{}"); place != std::string::npos) {
+        const std::string rest = why.substr(why.find(found->said) + found->said.size());
+        message.replace(place, 2, rest.substr(0, rest.find(']')));
+    }
+    return unreadable(file, message, found->mend == nullptr ? kUsualMend : found->mend);
+}
+
+// Half-Life keeps pictures of a model in a file of its own, which Assimp reads as a model without joints.
+bool isPartOfHalfLifeModel(const aiScene& scene) {
+    return scene.mNumMeshes == 0 && scene.mRootNode->mName == aiString("<MDL_root>") &&
+           scene.mRootNode->FindNode("<MDL_bones>") == nullptr;
 }
 
 // A part of the model in a file of its own that is not there is not a fault of the file that names it.
@@ -125,6 +138,10 @@ Result<SceneFile> readScene(const fs::path& file, const ModelFolder& folder) {
     if (out.scene == nullptr)
         return unreadable(file, why.empty() ? "can't be read as a model" : why, mendOf(why, *out.leftOut));
     if (out.scene->mRootNode == nullptr) return unreadable(file, "holds no scene");
+    if (isPartOfHalfLifeModel(*out.scene)) {
+        return unreadable(file, "holds the pictures of a Half-Life model without the model",
+                          "take the model's own .mdl file, whose name has no T at its end");
+    }
     if (std::optional<Error> error = findAbsurdCount(*out.scene, file)) return *std::move(error);
     return out;
 }

@@ -75,13 +75,28 @@ class BvhParser {
         return first == std::string_view::npos ? "" : std::string(line.substr(first, last - first + 1));
     }
 
+    // Programs in some countries write a comma for the point.
     static std::optional<double> asNumber(std::string_view token) {
+        std::string pointed;
+        if (const std::size_t comma = token.find(','); comma != std::string_view::npos) {
+            if (token.find('.') != std::string_view::npos) return std::nullopt;
+            pointed = token;
+            pointed[comma] = '.';
+            token = pointed;
+        }
         if (token.starts_with('+')) token.remove_prefix(1);
         double value = 0.0;
         const auto [end, code] = std::from_chars(token.data(), token.data() + token.size(), value);
         if (code == std::errc::result_out_of_range) return 0.0;
-        if (code != std::errc() || end == token.data()) return std::nullopt;
-        return std::isfinite(value) ? value : 0.0;
+        if (code != std::errc() || end != token.data() + token.size()) return std::nullopt;
+        return std::isfinite(value) ? std::optional(value) : std::nullopt;
+    }
+
+    // "nan", "-inf", "1.#QNAN", "-1.#IND": what programs write for a number that they do not have.
+    static bool isNoValue(std::string_view token) {
+        if (token.starts_with('+') || token.starts_with('-')) token.remove_prefix(1);
+        return sameButCase(token.substr(0, 3), "nan") || sameButCase(token.substr(0, 3), "inf") ||
+               token.substr(0, 3) == "1.#";
     }
 
     double number() {
@@ -161,50 +176,78 @@ class BvhParser {
         document.channelCount += joint.channels.size();
     }
 
-    // "Frames: 12" and "Frame Time: 0.03", in which a blank may stand before the colon.
+    // "Frames: 12" and "Frame Time: 0.03", in which a blank may stand before the colon. Either may be missing.
     void readMotion() {
-        double stated = 0.0;
+        std::optional<double> stated;
+        bool timed = false;
         std::string_view token = word();
-        while (!failed_ && !token.empty() && !asNumber(token)) {
+        while (!failed_ && !token.empty() && !isNumeral(token)) {
             std::string label(token);
             token = word();
-            while (!token.empty() && !asNumber(token)) {
+            while (!token.empty() && !isNumeral(token)) {
                 label += token;
                 token = word();
             }
-            const std::optional<double> value = asNumber(token);
-            if (!value) break;
+            if (token.empty()) break;
+            const double value = asNumber(token).value_or(0.0);
             const bool frames = sameButCase(std::string_view(label).substr(0, 6), "Frames");
             const bool time = sameButCase(std::string_view(label).substr(0, 9), "FrameTime");
-            if (frames) stated = *value;
-            const bool plausible = *value > 0.0 && *value < 60.0;
-            if (time && plausible) document.frameSeconds = *value;
-            if (time && !plausible)
-                document.warnings.push_back(
-                    fmt::format("says that a frame takes {} s: took 1/{:.0f} s", *value, 1.0 / document.frameSeconds));
             if (!frames && !time) return fail(fmt::format("'{}' stands where Frames or Frame Time should", label));
-            if (time) {
-                readFrames(stated);
-                return;
-            }
+            if (frames) stated = value;
+            if (time) setFrameTime(value);
+            timed = timed || time;
             token = word();
         }
+        if (failed_ || document.channelCount == 0) return;
+        if (!timed && !token.empty()) {
+            document.warnings.push_back(
+                fmt::format("does not say how long a frame takes: took 1/{:.0f} s", 1.0 / document.frameSeconds));
+        }
+        readFrames(token, stated);
     }
 
-    void readFrames(double stated) {
-        if (document.channelCount == 0) return;
-        for (std::string_view token = word(); !token.empty(); token = word()) {
+    static bool isNumeral(std::string_view token) { return asNumber(token).has_value() || isNoValue(token); }
+
+    void setFrameTime(double seconds) {
+        if (seconds > 0.0 && seconds < 60.0) {
+            document.frameSeconds = seconds;
+            return;
+        }
+        document.warnings.push_back(
+            fmt::format("says that a frame takes {} s: took 1/{:.0f} s", seconds, 1.0 / document.frameSeconds));
+    }
+
+    void readFrames(std::string_view token, std::optional<double> stated) {
+        std::size_t without = 0;
+        for (; !token.empty(); token = word()) {
             const std::optional<double> value = asNumber(token);
-            if (!value) break;
+            if (!value && !isNoValue(token)) {
+                const auto end = text_.begin() + static_cast<std::ptrdiff_t>(at_);
+                document.warnings.push_back(fmt::format("the motion was read up to line {}, where '{}' is no number",
+                                                        std::count(text_.begin(), end, '\n') + 1, token.substr(0, 20)));
+                break;
+            }
             if (document.frames.size() >= kMaxNumbers)
                 return fail(fmt::format("more than {} numbers of motion", kMaxNumbers));
-            document.frames.push_back(static_cast<float>(*value));
+            without += value ? 0 : 1;
+            // Such a channel stays where it was.
+            const std::size_t count = document.frames.size();
+            const float before = count >= document.channelCount ? document.frames[count - document.channelCount] : 0.0F;
+            document.frames.push_back(value ? static_cast<float>(*value) : before);
         }
         const std::size_t whole = document.frames.size() / document.channelCount;
+        const std::size_t rest = document.frames.size() - whole * document.channelCount;
         document.frames.resize(whole * document.channelCount);
-        if (static_cast<double>(whole) < stated) {
+        if (without > 0) {
             document.warnings.push_back(
-                fmt::format("the file says that it has {:.0f} frames, but {} are there", stated, whole));
+                fmt::format("{} of the motion's numbers are none (nan) and keep the frame before", without));
+        }
+        if (stated && static_cast<double>(whole) != *stated) {
+            document.warnings.push_back(
+                fmt::format("the file says that it has {:.0f} frames, but {} are there", *stated, whole));
+        } else if (rest > 0) {
+            document.warnings.push_back(
+                fmt::format("the motion has {} numbers beyond its {} frames, which were left out", rest, whole));
         }
     }
 

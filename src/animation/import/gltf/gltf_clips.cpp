@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
+#include <set>
+#include <utility>
 
 #include "animation/import/gltf/accessor.hpp"
 #include "animation/import/gltf/gltf_parts.hpp"
@@ -20,8 +23,10 @@ std::optional<SourceChannel::Path> pathOf(const std::string& name) {
     return std::nullopt;
 }
 
-Interpolation interpolationOf(const std::string& name) {
+Interpolation interpolationOf(const std::string& name, GltfFile& file) {
     if (name == "STEP") return Interpolation::step;
+    if (!name.empty() && name != "LINEAR" && name != "CUBICSPLINE")
+        file.leaveOut("interpolations of animations that glTF does not know: straight from key to key");
     return name == "CUBICSPLINE" ? Interpolation::cubicSpline : Interpolation::linear;
 }
 
@@ -31,6 +36,7 @@ void takeKeys(const Numbers& times, const Numbers& values, SourceChannel& channe
     const std::size_t perKey = parts * values.width;
     const std::size_t keys = std::min(times.count, values.count / parts);
     if (keys < times.count) file.leaveOut("keys of animations that have no value");
+    if (values.count > times.count * parts) file.leaveOut("values of animations beyond their last key");
     channel.times.reserve(keys);
     channel.values.reserve(keys * perKey);
     for (std::size_t key = 0; key < keys; ++key) {
@@ -84,7 +90,10 @@ void addChannel(GltfFile& file, const json& animation, const json& source, const
         return;
     }
     const std::optional<int> samplerIndex = indexOf(source, "sampler", countOf(animation, "samplers"));
-    if (!samplerIndex) return;
+    if (!samplerIndex) {
+        file.leaveOut("channels of animations without a sampler");
+        return;
+    }
     if (nodes[target->node] < 0) {
         file.leaveOut("animations of nodes that are not in the scene");
         return;
@@ -96,10 +105,22 @@ void addChannel(GltfFile& file, const json& animation, const json& source, const
     SourceChannel channel;
     channel.node = nodes[target->node];
     channel.path = *path;
-    channel.interpolation = interpolationOf(textOf(sampler, "interpolation"));
+    channel.interpolation = interpolationOf(textOf(sampler, "interpolation"), file);
     const std::size_t width = *path == SourceChannel::Path::rotation ? 4 : 3;
     takeKeys(readNumbers(file, *input, 1, "key times"), readNumbers(file, *output, width, "key values"), channel, file);
     if (!channel.times.empty()) clip.channels.push_back(std::move(channel));
+}
+
+// Of channels that move the same part of a node, which the standard forbids, the last is what most programs show.
+void keepLastOfEach(SourceClip& clip, GltfFile& file) {
+    std::set<std::pair<int, SourceChannel::Path>> taken;
+    std::vector<SourceChannel> kept;
+    for (auto channel = clip.channels.rbegin(); channel != clip.channels.rend(); ++channel) {
+        if (taken.emplace(channel->node, channel->path).second) kept.push_back(std::move(*channel));
+    }
+    if (kept.size() < clip.channels.size())
+        file.leaveOut("of several channels of an animation that move the same part of a node all but the last");
+    clip.channels.assign(std::make_move_iterator(kept.rbegin()), std::make_move_iterator(kept.rend()));
 }
 
 }  // namespace
@@ -124,6 +145,7 @@ void addClips(GltfFile& file, const NodeMap& nodes, SourceScene& out) {
         const json* channels = arrayOf(source, "channels");
         for (std::size_t c = 0; channels != nullptr && c < channels->size(); ++c)
             addChannel(file, source, (*channels)[c], nodes, clip);
+        keepLastOfEach(clip, file);
         out.clips.push_back(std::move(clip));
     }
 }

@@ -215,3 +215,45 @@ TEST_CASE("a figure of the CMU captures is no giant because it stands astride") 
     const Character character = imported(folder / "astride.bvh");
     CHECK(character.units.metresPerFileUnit == Approx(0.0254F / 0.45F));
 }
+
+TEST_CASE("what a BVH's motion says of itself and what is there are told where they differ") {
+    const std::string joints =
+        "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 3 Xposition Yposition Zposition\nJOINT b\n{\nOFFSET 0 1 0\n"
+        "CHANNELS 3 Zrotation Xrotation Yrotation\n}\n}\nMOTION\n";
+    const auto read = [&](const std::string& motion) {
+        Result<SourceScene> scene = readText(joints + motion);
+        REQUIRE(scene.ok());
+        return std::move(scene).value();
+    };
+    const auto keys = [](const SourceScene& scene) {
+        return scene.clips.empty() ? 0 : scene.clips[0].channels[0].times.size();
+    };
+    const std::string frame = "1 2 3 10 20 30\n";
+    const std::string time = "Frame Time: 0.05\n";
+    CHECK(read("Frames: 2\n" + time + frame + frame).warnings.empty());
+    const SourceScene more = read("Frames: 1\n" + time + frame + frame);
+    CHECK(keys(more) == 2);
+    CHECK(warns(more, "1 frames, but 2 are there"));
+    const SourceScene none = read("Frames: 0\n" + time);
+    CHECK(none.clips.empty());
+    CHECK(none.warnings.empty());
+    CHECK(warns(read("Frames: 0\n" + time + frame), "0 frames, but 1 are there"));
+    CHECK(read(time + frame).warnings.empty());
+    CHECK(warns(read(time + frame + "7 8"), "2 numbers beyond its 1 frames"));
+    const SourceScene timeless = read("Frames: 2\n" + frame + frame);
+    CHECK(keys(timeless) == 2);
+    CHECK(warns(timeless, "how long a frame takes: took 1/30 s"));
+    // Decimal commas, and numbers that are none.
+    const SourceScene commas = read("Frames: 2\nFrame Time: 0,05\n1,5 2 3 10 20 30\n2,5 2 3 10 20 30\n");
+    CHECK(commas.warnings.empty());
+    CHECK(commas.clips[0].channels[0].values[3] == Approx(2.5F));
+    CHECK(commas.clips[0].channels[0].times[1] == Approx(0.05));
+    for (const char* broken : {"nan", "-NaN(ind)", "inf", "1.#QNAN", "-1.#IND00"}) {
+        const SourceScene scene = read("Frames: 2\n" + time + frame + broken + " 2 3 10 20 30\n");
+        CHECK(warns(scene, "1 of the motion's numbers are none"));
+        CHECK(scene.clips[0].channels[0].values[3] == Approx(1.0F));
+    }
+    const SourceScene torn = read("Frames: 3\n" + time + frame + frame + "1 2 x3 4 5 6\n");
+    CHECK(keys(torn) == 2);
+    CHECK(warns(torn, "up to line 17, where 'x3' is no number"));
+}
