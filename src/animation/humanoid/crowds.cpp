@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <numeric>
+#include <utility>
 
 #include "animation/carrying_joints.hpp"
 #include "animation/humanoid/name_evidence.hpp"
@@ -13,9 +15,9 @@ namespace {
 constexpr int kMostOfPart = 4;            // joints of a small part: no figure has fewer than five
 constexpr int kFewestOfCrowd = 256;       // parts side by side
 constexpr int kFewestOfMultitude = 2048;  // … of which names tell nothing any more
-constexpr int kHugeScene = 4096;          // joints: here groups of parts hang on groups, and …
+constexpr std::size_t kHugeScene = 4096;  // joints: here groups of parts hang on groups, and …
 constexpr int kHugeScale = 16;            // … so many times fewer are a crowd
-constexpr int kFewestInScene = 2 * kFewestOfCrowd;
+constexpr std::size_t kFewestInScene = 2 * std::size_t{kFewestOfCrowd};
 constexpr int kLeastChain = 3;    // nodes, one below the other: as a limb has
 constexpr int kMostOfBody = 256;  // parts of a crowd that are taken for a body's by one sign: more are a crowd, too
 
@@ -38,6 +40,49 @@ unsigned signsOfName(const NameEvidence& evidence) {
     return limb || parts[Part::head] >= kTellsTrunkEnd || parts[Part::hips] >= kTellsTrunkEnd ? kLimb : kNoSign;
 }
 
+// What is left of a scene while crowds are taken from it, one entry a joint.
+struct Nodes {
+    std::vector<int> original;  // index in the whole skeleton
+    std::vector<int> parents;   // kNoJoint of roots
+    std::vector<bool> stays;    // it moves skin, or the caller keeps it
+    std::vector<bool> named;    // its name is of a part of a body
+    std::vector<unsigned> signs;
+
+    [[nodiscard]] std::size_t count() const { return parents.size(); }
+};
+
+Nodes readNodes(const Character& character, const std::vector<int>& kept, bool useNames) {
+    const Skeleton& skeleton = character.skeleton;
+    const std::size_t count = skeleton.names.size();
+    Nodes nodes{std::vector<int>(count), skeleton.parents, carryingJoints(character).skin,
+                std::vector<bool>(count, false), std::vector<unsigned>(count, kNoSign)};
+    std::iota(nodes.original.begin(), nodes.original.end(), 0);
+    for (const int joint : kept)
+        nodes.stays[static_cast<std::size_t>(joint)] = true;
+    for (std::size_t joint = 0; useNames && joint < count; ++joint) {
+        const NameEvidence evidence = nameEvidence(skeleton.names[joint]);
+        nodes.named[joint] = speaksOfBody(evidence);
+        nodes.signs[joint] = signsOfName(evidence);
+    }
+    return nodes;
+}
+
+void takeOut(const std::vector<bool>& gone, Nodes& nodes) {
+    Nodes left;
+    std::vector<int> fresh(gone.size(), kNoJoint);
+    for (std::size_t joint = 0; joint < gone.size(); ++joint) {
+        if (gone[joint]) continue;
+        const int parent = nodes.parents[joint];
+        fresh[joint] = static_cast<int>(left.count());
+        left.original.push_back(nodes.original[joint]);
+        left.parents.push_back(parent == kNoJoint ? kNoJoint : fresh[static_cast<std::size_t>(parent)]);
+        left.stays.push_back(nodes.stays[joint]);
+        left.named.push_back(nodes.named[joint]);
+        left.signs.push_back(nodes.signs[joint]);
+    }
+    nodes = std::move(left);
+}
+
 // Small parts below each joint: the tops of what has no skin and few joints, and whether a name there is of a body.
 struct Parts {
     std::vector<bool> small;      // per joint: it and all below it are few, and move no skin
@@ -45,25 +90,16 @@ struct Parts {
     std::vector<unsigned> signs;  // per joint: of it and of those below it
 };
 
-Parts findParts(const Character& character, const std::vector<int>& kept, bool useNames) {
-    const Skeleton& skeleton = character.skeleton;
-    const std::size_t count = skeleton.names.size();
-    const std::vector<bool> skinned = carryingJoints(character).skin;
-    Parts parts{std::vector<bool>(count, true), std::vector<bool>(count, false), std::vector<unsigned>(count, kNoSign)};
+Parts findParts(const Nodes& nodes) {
+    const std::size_t count = nodes.count();
+    Parts parts{std::vector<bool>(count, true), nodes.named, nodes.signs};
     std::vector<int> size(count, 1);
     std::vector<int> height(count, 1);
-    for (const int joint : kept)
-        parts.small[static_cast<std::size_t>(joint)] = false;
     for (std::size_t joint = count; joint-- > 0;) {
-        if (skinned[joint] || size[joint] > kMostOfPart) parts.small[joint] = false;
-        if (useNames) {
-            const NameEvidence evidence = nameEvidence(skeleton.names[joint]);
-            parts.named[joint] = parts.named[joint] || speaksOfBody(evidence);
-            parts.signs[joint] |= signsOfName(evidence);
-        }
+        if (nodes.stays[joint] || size[joint] > kMostOfPart) parts.small[joint] = false;
         if (height[joint] >= kLeastChain) parts.signs[joint] |= kChain;
-        if (skeleton.parents[joint] == kNoJoint) continue;
-        const auto parent = static_cast<std::size_t>(skeleton.parents[joint]);
+        if (nodes.parents[joint] == kNoJoint) continue;
+        const auto parent = static_cast<std::size_t>(nodes.parents[joint]);
         size[parent] += size[joint];
         if (!parts.small[joint]) parts.small[parent] = false;
         if (parts.named[joint]) parts.named[parent] = true;
@@ -86,19 +122,20 @@ void keepBodies(const Parts& parts, std::vector<bool>& gone) {
         gone[joint] = gone[joint] && (parts.signs[joint] & telling) == 0;
 }
 
-std::vector<bool> findCrowds(const Skeleton& skeleton, const Parts& parts) {
-    const std::size_t count = skeleton.names.size();
+std::vector<bool> findCrowds(const Nodes& nodes) {
+    const Parts parts = findParts(nodes);
+    const std::size_t count = nodes.count();
     std::vector<int> beside(count + 1, 0);   // per parent: small parts on it; the last is of those on none
     std::vector<int> unnamed(count + 1, 0);  // … whose names say nothing
     const auto parentOf = [&](std::size_t joint) {
-        return skeleton.parents[joint] == kNoJoint ? count : static_cast<std::size_t>(skeleton.parents[joint]);
+        return nodes.parents[joint] == kNoJoint ? count : static_cast<std::size_t>(nodes.parents[joint]);
     };
     for (std::size_t joint = 0; joint < count; ++joint) {
         if (!parts.small[joint]) continue;
         ++beside[parentOf(joint)];
         if (!parts.named[joint]) ++unnamed[parentOf(joint)];
     }
-    const int scale = skeleton.jointCount() > kHugeScene ? kHugeScale : 1;
+    const int scale = count > kHugeScene ? kHugeScale : 1;
     std::vector<bool> gone(count, false);
     for (std::size_t joint = 0; joint < count; ++joint) {
         const std::size_t parent = parentOf(joint);
@@ -122,9 +159,19 @@ int WithoutCrowds::placeOf(int joint) const {
 
 std::optional<WithoutCrowds> leaveOutCrowds(const Character& character, const std::vector<int>& kept, bool useNames) {
     const Skeleton& skeleton = character.skeleton;
-    if (skeleton.jointCount() < kFewestInScene) return std::nullopt;
-    const std::vector<bool> gone = findCrowds(skeleton, findParts(character, kept, useNames));
-    if (std::none_of(gone.begin(), gone.end(), [](bool is) { return is; })) return std::nullopt;
+    const std::size_t count = skeleton.names.size();
+    if (count < kFewestInScene) return std::nullopt;
+    Nodes nodes = readNodes(character, kept, useNames);
+    // What a crowd hung on may be one of a crowd without it.
+    while (nodes.count() >= kFewestInScene) {
+        const std::vector<bool> crowds = findCrowds(nodes);
+        if (std::find(crowds.begin(), crowds.end(), true) == crowds.end()) break;
+        takeOut(crowds, nodes);
+    }
+    if (nodes.count() == count) return std::nullopt;
+    std::vector<bool> gone(count, true);
+    for (const int joint : nodes.original)
+        gone[static_cast<std::size_t>(joint)] = false;
     WithoutCrowds left;
     Skeleton& few = left.character.skeleton;
     std::vector<int> fresh(gone.size(), kNoJoint);

@@ -24,7 +24,8 @@ struct WithoutCrowds {
 /// Hundreds of small parts side by side, without a skin and without a name of the body, are a room or a machine and no
 /// limbs: time would grow with their square. Among thousands side by side only the names of limbs, head and hips count.
 /// Those, and chains of three nodes, stay where no more than 256 of the crowd are such. `kept` names joints that stay,
-/// whatever they are. Names count for nothing without `useNames`. Nothing where there is no such crowd.
+/// whatever they are. Names count for nothing without `useNames`. Crowds that hang on crowds go as well, so that
+/// nothing is left of them to ask for once more. Nothing where there is no such crowd.
 [[nodiscard]] std::optional<WithoutCrowds> leaveOutCrowds(const Character& character, const std::vector<int>& kept,
                                                           bool useNames = true);
 

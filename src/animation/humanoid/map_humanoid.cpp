@@ -244,19 +244,6 @@ std::vector<int> namedJoints(const Character& character, const MapOptions& optio
     return joints;
 }
 
-HumanoidMap mapWithoutCrowds(const WithoutCrowds& few, int leftOut, MapOptions options) {
-    for (auto& joint : options.fixed) {
-        if (joint) joint = few.placeOf(*joint);
-    }
-    HumanoidMap map = mapHumanoid(few.character, options);
-    for (auto& binding : map.roles) {
-        if (binding) binding->joint = few.originalOf(binding->joint);
-    }
-    if (!map.humanoid && !map.warnings.empty())
-        map.warnings.front() += fmt::format(" (without {} small parts side by side)", leftOut);
-    return map;
-}
-
 void listMissing(HumanoidMap& map) {
     map.missing.clear();
     for (int index = 0; index < kRoleCount; ++index) {
@@ -264,15 +251,10 @@ void listMissing(HumanoidMap& map) {
     }
 }
 
-}  // namespace
-
-HumanoidMap mapHumanoid(const Character& character, const MapOptions& options) {
+// Of a character without crowds.
+HumanoidMap mapWhole(const Character& character, const MapOptions& options) {
     const Skeleton& skeleton = character.skeleton;
-    for (const auto& joint : options.fixed)
-        LUTKA_ASSERT(!joint || (*joint >= 0 && *joint < skeleton.jointCount()));
     if (skeleton.jointCount() == 0) return refused("it has no joints");
-    if (const auto few = leaveOutCrowds(character, namedJoints(character, options), options.useNames))
-        return mapWithoutCrowds(*few, skeleton.jointCount() - few->character.skeleton.jointCount(), options);
     if (skeleton.jointCount() < kFewestJoints) {
         return refused(fmt::format("{} joint{} too few for a trunk, two arms and two legs", skeleton.jointCount(),
                                    skeleton.jointCount() == 1 ? " is" : "s are"));
@@ -313,6 +295,30 @@ HumanoidMap mapHumanoid(const Character& character, const MapOptions& options) {
             fmt::format("{} of the 15 required parts have no joint: the ragdoll has hardly half a body", missing));
     }
     return map;
+}
+
+HumanoidMap mapWithoutCrowds(const WithoutCrowds& few, int leftOut, MapOptions options) {
+    for (auto& joint : options.fixed) {
+        if (joint) joint = few.placeOf(*joint);
+    }
+    HumanoidMap map = mapWhole(few.character, options);
+    for (auto& binding : map.roles) {
+        if (binding) binding->joint = few.originalOf(binding->joint);
+    }
+    if (!map.humanoid && !map.warnings.empty())
+        map.warnings.front() += fmt::format(" (without {} small parts side by side)", leftOut);
+    return map;
+}
+
+}  // namespace
+
+HumanoidMap mapHumanoid(const Character& character, const MapOptions& options) {
+    const Skeleton& skeleton = character.skeleton;
+    for (const auto& joint : options.fixed)
+        LUTKA_ASSERT(!joint || (*joint >= 0 && *joint < skeleton.jointCount()));
+    if (const auto few = leaveOutCrowds(character, namedJoints(character, options), options.useNames))
+        return mapWithoutCrowds(*few, skeleton.jointCount() - few->character.skeleton.jointCount(), options);
+    return mapWhole(character, options);
 }
 
 }  // namespace lutka::animation

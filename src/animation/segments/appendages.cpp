@@ -245,42 +245,10 @@ void makeNamesUnique(std::vector<Segment>& segments) {
     }
 }
 
-}  // namespace
-
-std::string_view appendageName(AppendageKind kind) {
-    static constexpr std::array<std::string_view, 8> kNames{"tail",  "ears",  "hair",   "cape",
-                                                            "skirt", "wings", "weapon", "other"};
-    return kNames[static_cast<std::size_t>(kind)];
-}
-
-std::optional<AppendageKind> appendageNamed(std::string_view name) {
-    for (const AppendageKind kind : kAppendageKinds)
-        if (appendageName(kind) == name) return kind;
-    return std::nullopt;
-}
-
-std::vector<Appendage> findAppendages(const Character& character, const HumanoidMap& map) {
-    if (!map.humanoid) return {};
-    const auto few = withoutCrowds(character, map);
-    if (!few) return AppendageSearch(character, map).find();
-    std::vector<Appendage> found = findAppendages(few->character, mapOf(*few, map));
-    for (Appendage& appendage : found)
-        appendage.joint = few->originalOf(appendage.joint);
-    return found;
-}
-
-std::vector<Segment> appendageSegments(const Character& character, const HumanoidMap& map,
-                                       std::span<const AppendageKind> kinds, int mostSegments) {
+// Of a character without crowds.
+std::vector<Segment> segmentsOfWhole(const Character& character, const HumanoidMap& map,
+                                     std::span<const AppendageKind> kinds, int mostSegments) {
     constexpr float kCoarser = 1.2F;
-    if (!map.humanoid || kinds.empty() || mostSegments < 1) return {};
-    if (const auto few = withoutCrowds(character, map)) {
-        std::vector<Segment> segments = appendageSegments(few->character, mapOf(*few, map), kinds, mostSegments);
-        for (Segment& segment : segments) {
-            segment.joint = few->originalOf(segment.joint);
-            segment.end = few->originalOf(segment.end);
-        }
-        return segments;
-    }
     const AppendageSearch search(character, map);
     std::vector<Appendage> wanted = search.find();
     std::erase_if(wanted,
@@ -299,6 +267,44 @@ std::vector<Segment> appendageSegments(const Character& character, const Humanoi
         pairSegments(search.rig(), size, map.standardFromModel,
                      (map.standardFromModel * search.rig().positions[hips]).x, segments);
     orderSegments(segments);
+    return segments;
+}
+
+}  // namespace
+
+std::string_view appendageName(AppendageKind kind) {
+    static constexpr std::array<std::string_view, 8> kNames{"tail",  "ears",  "hair",   "cape",
+                                                            "skirt", "wings", "weapon", "other"};
+    return kNames[static_cast<std::size_t>(kind)];
+}
+
+std::optional<AppendageKind> appendageNamed(std::string_view name) {
+    for (const AppendageKind kind : kAppendageKinds)
+        if (appendageName(kind) == name) return kind;
+    return std::nullopt;
+}
+
+std::vector<Appendage> findAppendages(const Character& character, const HumanoidMap& map) {
+    if (!map.humanoid) return {};
+    const auto few = withoutCrowds(character, map);
+    if (!few) return AppendageSearch(character, map).find();
+    const HumanoidMap fewMap = mapOf(*few, map);
+    std::vector<Appendage> found = AppendageSearch(few->character, fewMap).find();
+    for (Appendage& appendage : found)
+        appendage.joint = few->originalOf(appendage.joint);
+    return found;
+}
+
+std::vector<Segment> appendageSegments(const Character& character, const HumanoidMap& map,
+                                       std::span<const AppendageKind> kinds, int mostSegments) {
+    if (!map.humanoid || kinds.empty() || mostSegments < 1) return {};
+    const auto few = withoutCrowds(character, map);
+    if (!few) return segmentsOfWhole(character, map, kinds, mostSegments);
+    std::vector<Segment> segments = segmentsOfWhole(few->character, mapOf(*few, map), kinds, mostSegments);
+    for (Segment& segment : segments) {
+        segment.joint = few->originalOf(segment.joint);
+        segment.end = few->originalOf(segment.end);
+    }
     return segments;
 }
 

@@ -20,19 +20,9 @@ RigFeatures readCreature(const Character& character) {
     return rig;
 }
 
-// The crowds of things beside a creature are no bodies of it, and time would grow with their square.
-SegmentedRig segmentsOf(const Character& character, const SegmentOptions& options) {
+SegmentedRig segmentsOfWhole(const Character& character, const SegmentOptions& options) {
     constexpr float kFirstShortest = 0.04F;  // of the longest extent
     constexpr float kCoarser = 1.2F;
-    const auto few = leaveOutCrowds(character, {});
-    if (few && few->character.skeleton.jointCount() > 0) {
-        SegmentedRig result = segmentsOf(few->character, options);
-        for (Segment& segment : result.segments) {
-            segment.joint = few->originalOf(segment.joint);
-            segment.end = few->originalOf(segment.end);
-        }
-        return result;
-    }
     SegmentedRig result;
     const RigFeatures rig = readCreature(character);
     const RigMeasures measures = measureRig(rig);
@@ -46,6 +36,18 @@ SegmentedRig segmentsOf(const Character& character, const SegmentOptions& option
     }
     result.standardFromModel = findSides(rig, measures.size, result.segments);
     orderSegments(result.segments);
+    return result;
+}
+
+// The crowds of things beside a creature are no bodies of it, and time would grow with their square.
+SegmentedRig segmentsOf(const Character& character, const SegmentOptions& options) {
+    const auto few = leaveOutCrowds(character, {});
+    if (!few || few->character.skeleton.jointCount() == 0) return segmentsOfWhole(character, options);
+    SegmentedRig result = segmentsOfWhole(few->character, options);
+    for (Segment& segment : result.segments) {
+        segment.joint = few->originalOf(segment.joint);
+        segment.end = few->originalOf(segment.end);
+    }
     return result;
 }
 

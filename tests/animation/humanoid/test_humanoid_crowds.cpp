@@ -32,14 +32,50 @@ TEST_CASE("a figure in a scene of sixty thousand parts is read without them", "[
     }
 }
 
-TEST_CASE("of parts in groups the groups are left", "[crowds]") {
+TEST_CASE("of parts in groups the groups are left out as well", "[crowds]") {
     animation::Character scene = makeBiped();
     const int figure = scene.skeleton.jointCount();
     addParts(scene, 60000, "part_", 120);
     const auto few = animation::leaveOutCrowds(scene, {});
     REQUIRE(few);
-    CHECK(few->character.skeleton.jointCount() == figure + 501);
+    CHECK(few->character.skeleton.jointCount() == figure + 1);
     CHECK(animation::mapHumanoid(scene).humanoid);
+}
+
+TEST_CASE("crowds that hang on crowds are left out at once", "[crowds]") {
+    // As many parts side by side as just make a crowd, on one of them as many more, and so on.
+    animation::Character scene = makeBiped();
+    const int figure = scene.skeleton.jointCount();
+    constexpr int kLevels = 12;
+    for (int level = 0; level < kLevels; ++level) {
+        const int top = level == 0 ? 0 : scene.skeleton.jointCount() - 1;
+        for (int part = 0; part < 256; ++part) {
+            scene.skeleton.names.push_back("part_" + std::to_string(level) + "_" + std::to_string(part));
+            scene.skeleton.parents.push_back(top);
+            scene.skeleton.bindModelFromJoint.push_back(scene.skeleton.bindModelFromJoint[0]);
+            scene.skeleton.nodeParentFromJoint.push_back(RigidTransform{});
+            scene.skeleton.skinWeight.push_back(0.0F);
+        }
+    }
+    const auto few = animation::leaveOutCrowds(scene, {});
+    REQUIRE(few);
+    CHECK(few->character.skeleton.jointCount() == figure + 256);  // too few are left to be a scene
+    CHECK_FALSE(animation::leaveOutCrowds(few->character, {}));
+    CHECK(animation::mapHumanoid(scene).humanoid);
+}
+
+TEST_CASE("a refusal tells once how many parts were left out, though they hang on each other", "[crowds]") {
+    animation::Character scene;
+    scene.skeleton = makeSkeleton({{"root", -1, {0, 0, 0}}});
+    scene.skeleton.skinWeight.assign(1, 0.0F);
+    addParts(scene, 50000, "part_", 100);
+    const animation::HumanoidMap map = animation::mapHumanoid(scene);
+    REQUIRE_FALSE(map.warnings.empty());
+    const std::string& reason = map.warnings.front();
+    INFO(reason);
+    const std::size_t first = reason.find("(without ");
+    REQUIRE(first != std::string::npos);
+    CHECK(reason.find("(without ", first + 1) == std::string::npos);
 }
 
 TEST_CASE("of hundreds of parts those stay that are named as the body's, or that the user fixed", "[crowds]") {
