@@ -224,9 +224,10 @@ class PairFinder {
                 const bool apart = separation(a, b) > 0.05F * framed_.spread && areOnBothSides(a, b);
                 const bool named = nameCost(rig_.names[a], rig_.names[b]) < 0.0F;
                 const bool onlyTwo = parentA != parentB && isOnlyChild(parentA) && isOnlyChild(parentB);
-                const float most = onlyTwo ? kOnlyChildLengths : goOnAlike(a, b) ? kAlikeBelowLengths : kChildLengths;
-                if (lengths > most && !named) continue;
                 if (parentA == parentB && !apart && !named) continue;
+                const bool close = lengths <= (onlyTwo ? kOnlyChildLengths : kChildLengths);
+                // Last, as it takes the longest.
+                if (!close && !named && (onlyTwo || lengths > kAlikeBelowLengths || !goOnAlike(a, b))) continue;
                 const float cost =
                     std::min(4.0F * lengths, onlyTwo || named ? kMostLengthCost : kMaxCost) + structureCost(a, b);
                 if (cost < kMaxCost) candidates.push_back({a, b, cost});
@@ -236,20 +237,25 @@ class PairFinder {
     }
 
     // Limbs that start unevenly, but are one as long as the other from there.
-    [[nodiscard]] bool goOnAlike(int a, int b) const {
-        const auto reach = [&](int top) {
-            float far = 0.0F;
-            for (int joint = 0; joint < rig_.count(); ++joint) {
-                if (rig_.isAncestorOrSelf(top, joint))
-                    far = std::max(far, glm::distance(framed_.positions[top], framed_.positions[joint]));
-            }
-            return far;
-        };
+    [[nodiscard]] bool goOnAlike(int a, int b) {
         if (rig_.children[a].empty() || rig_.subtreeSize(a) != rig_.subtreeSize(b)) return false;
-        const float first = reach(a);
-        const float second = reach(b);
+        const float first = reachOf(a);
+        const float second = reachOf(b);
         return std::min(first, second) > kLimbReach * framed_.spread &&
                std::abs(std::log(first / second)) < kChildLengths;
+    }
+
+    // How far from a joint the farthest one below it lies. Joints side by side ask for it with each of the others.
+    [[nodiscard]] float reachOf(int top) {
+        if (reaches_.empty()) reaches_.assign(framed_.positions.size(), -1.0F);
+        float& reach = reaches_[top];
+        if (reach >= 0.0F) return reach;
+        reach = 0.0F;
+        for (int joint = 0; joint < rig_.count(); ++joint) {
+            if (rig_.isAncestorOrSelf(top, joint))
+                reach = std::max(reach, glm::distance(framed_.positions[top], framed_.positions[joint]));
+        }
+        return reach;
     }
 
     // The pair that a joint hangs on, -1 without, and which of its two joints that is.
@@ -292,6 +298,7 @@ class PairFinder {
     const RigFeatures& rig_;
     std::vector<vec3> centroids_;  // of what hangs on a joint, with itself; nothing that is held
     std::vector<float> sizes_;     // in joints, likewise
+    std::vector<float> reaches_;   // of reachOf(); below 0 where it was not asked for yet
 };
 
 void readSkin(FramedRig& framed) {
