@@ -4,6 +4,7 @@
 #include <array>
 #include <glm/geometric.hpp>
 #include <initializer_list>
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>
@@ -267,15 +268,15 @@ void leaveNameToHead(RigFeatures& rig) {
 // "Arm 1, Arm 2, Arm 3": where one chain calls three joints or more by the same word for a limb, the word tells the
 // limb and no part of it.
 void flattenNumberedLimbs(RigFeatures& rig) {
+    // A name that stands twice is that of a copy of the whole skeleton.
+    std::map<std::pair<Side, std::vector<std::string>>, std::set<std::vector<int>>> numbers;
+    for (const NameEvidence& name : rig.names)
+        numbers[{name.side, name.words}].insert(name.numbers);
     for (int joint = 0; joint < rig.count(); ++joint) {
         const NameEvidence& name = rig.names[joint];
         if (!name.bareLimb || name.helper || saysConcept(name, Concept::hand) || saysConcept(name, Concept::foot))
             continue;
-        // A name that stands twice is that of a copy of the whole skeleton.
-        std::set<std::vector<int>> alike;
-        for (const NameEvidence& other : rig.names)
-            if (other.side == name.side && other.words == name.words) alike.insert(other.numbers);
-        if (alike.size() < 3) continue;
+        if (numbers[{name.side, name.words}].size() < 3) continue;
         const bool arm = saysConcept(name, Concept::arm);
         for (const Part part : arm ? std::array{Part::clavicle, Part::upperArm, Part::lowerArm, Part::hand}
                                    : std::array{Part::upperLeg, Part::lowerLeg, Part::foot, Part::toes})
