@@ -87,8 +87,15 @@ bool isPoleBesideArm(const RigFeatures& rig, int elbow) {
     });
 }
 
-// "Shoulder, forearm, arm" from above: who so calls them means the fore part of the arm and the rest of it.
+// "Shoulder, forearm, arm" from above: who so calls them means the fore part of the arm and the rest of it. Not where
+// a hand hangs on the forearm, or what moves more skin than that arm: then it only turns with the forearm.
 void readForearmsAboveArms(RigFeatures& rig) {
+    const auto goesOnElsewhere = [&](int forearm, int arm) {
+        return std::any_of(rig.children[forearm].begin(), rig.children[forearm].end(), [&](int child) {
+            return child != arm &&
+                   (rig.names[child].parts[Part::hand] >= kSurely || rig.subtreeWeight[child] > rig.subtreeWeight[arm]);
+        });
+    };
     for (int lower = 0; lower < rig.count(); ++lower) {
         const int upper = rig.parents[lower];
         const int shoulder = upper == kNoJoint ? kNoJoint : rig.parents[upper];
@@ -98,6 +105,7 @@ void readForearmsAboveArms(RigFeatures& rig) {
         if (!rig.names[lower].bareLimb || !saysConcept(rig.names[lower], Concept::arm)) continue;
         if (rig.names[upper].parts[Part::lowerArm] < kSurely || rig.names[shoulder].parts[Part::clavicle] < kMaybe)
             continue;
+        if (goesOnElsewhere(upper, lower)) continue;
         for (const auto& [joint, part] : {std::pair{shoulder, Part::clavicle}, std::pair{upper, Part::upperArm},
                                           std::pair{lower, Part::lowerArm}}) {
             rig.names[joint].bareLimb = false;
