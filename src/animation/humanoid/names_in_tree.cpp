@@ -150,19 +150,34 @@ void readNamesInChains(RigFeatures& rig) {
     }
 }
 
-// In a flattened rig the shoulder carries nothing: beside a joint that is called arm it is the clavicle.
+// In a flattened rig no joint hangs on the shoulder: beside a joint that is called arm it is the clavicle. The arm
+// hangs where the shoulder does, or on a root or a control, but never on a shoulder: else the one beside it is a pad.
 void readFlatShoulders(RigFeatures& rig) {
-    const auto isArmBeside = [&](int joint, int shoulder) {
+    const auto isShoulder = [&](int joint) { return rig.names[joint].parts[Part::clavicle] >= kMaybe; };
+    std::vector<int> arms;
+    for (int joint = 0; joint < rig.count(); ++joint) {
         const NameEvidence& name = rig.names[joint];
-        return name.side == rig.names[shoulder].side && !name.helper && name.parts[Part::upperArm] >= kMaybe &&
-               name.parts[Part::clavicle] < kMaybe && rig.carriesSkin(joint) && !rig.isAncestorOrSelf(joint, shoulder);
+        if (name.side == Side::center || name.helper || name.parts[Part::upperArm] < kMaybe || isShoulder(joint) ||
+            !rig.carriesSkin(joint))
+            continue;
+        int above = rig.parents[joint];
+        while (above != kNoJoint && !isShoulder(above))
+            above = rig.parents[above];
+        if (above == kNoJoint) arms.push_back(joint);
+    }
+    const auto areBeside = [&](int arm, int shoulder) {
+        const int parent = rig.parents[arm];
+        const bool flat = parent == kNoJoint || parent == rig.parents[shoulder] || rig.directWeight[parent] <= 0.0F;
+        return flat && rig.names[arm].side == rig.names[shoulder].side && !rig.isAncestorOrSelf(arm, shoulder);
     };
     for (int shoulder = 0; shoulder < rig.count(); ++shoulder) {
+        const NameEvidence& name = rig.names[shoulder];
         PartScores& parts = rig.names[shoulder].parts;
-        const bool isShoulder = parts[Part::clavicle] >= kMaybe && parts[Part::clavicle] < kSurely;
-        if (!isShoulder || rig.names[shoulder].side == Side::center || !rig.children[shoulder].empty()) continue;
-        for (int arm = 0; arm < rig.count(); ++arm) {
-            if (!isArmBeside(arm, shoulder)) continue;
+        if (name.side == Side::center || name.helper || !isShoulder(shoulder) || parts[Part::clavicle] >= kSurely ||
+            !rig.children[shoulder].empty())
+            continue;
+        for (const int arm : arms) {
+            if (!areBeside(arm, shoulder)) continue;
             parts[Part::clavicle] = kSurely;
             parts[Part::upperArm] = kSurelyNot;
             rig.names[arm].parts[Part::upperArm] = std::max(rig.names[arm].parts[Part::upperArm], kSurely);

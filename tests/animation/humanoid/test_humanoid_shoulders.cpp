@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "animation/humanoid/map_humanoid.hpp"
+#include "animation/humanoid/rig_features.hpp"
 #include "placed_joints.hpp"
 #include "support/catch.hpp"
 
@@ -63,6 +64,51 @@ TEST_CASE("a forearm that goes on in more skin than what hangs there called arm 
     CHECK(rig.nameOf(map, Role::leftUpperArm) == "Shoulder_L");
     CHECK(rig.nameOf(map, Role::leftLowerArm) == "ForeArm_L");
     CHECK(rig.nameOf(map, Role::rightLowerArm) == "ForeArm_R");
+}
+
+TEST_CASE("a pad beside a shoulder does not settle that what hangs on the shoulder is the upper arm", "[shoulders]") {
+    for (const char* pad : {"ShoulderPad", "Shoulder1", "ShoulderDeform"}) {
+        INFO(pad);
+        PlacedJoints rig;
+        const HumanoidMap map = figureWithShoulders(rig, "Arm", [&](const Limb& arm) {
+            rig.add("Hand" + arm.end, arm.fore, {arm.side * 0.72F, 1.45F, 0});
+            rig.add(pad + arm.end, arm.chest, {arm.side * 0.12F, 1.46F, 0});
+        });
+        REQUIRE(map.humanoid);
+        CHECK(rig.nameOf(map, Role::leftUpperArm) == "Shoulder_L");
+        CHECK(rig.nameOf(map, Role::leftLowerArm) == "Arm_L");
+        CHECK(rig.nameOf(map, Role::rightUpperArm) == "Shoulder_R");
+        animation::Character character;
+        character.skeleton = makeSkeleton(rig.joints);
+        character.skeleton.skinWeight = rig.skin;
+        const animation::RigFeatures read = animation::readRig(character, true);
+        for (int joint = 0; joint < read.count(); ++joint) {
+            const std::string& name = rig.joints[static_cast<std::size_t>(joint)].name;
+            INFO(name);
+            constexpr float kSure = 4.0F;
+            if (name.find(pad) == 0) CHECK(read.names[joint].parts[animation::Part::clavicle] < kSure);
+        }
+    }
+}
+
+TEST_CASE("a shoulder that no joint hangs on, beside the arm, is the clavicle", "[shoulders]") {
+    // On the arm's own parent, or on a joint of the trunk where the arm hangs on a control.
+    for (const bool flat : {true, false}) {
+        INFO(flat);
+        PlacedJoints rig;
+        const int root = rig.add("master", -1, {0, 0, 0}, 0.0F);
+        const int chest = rig.add("Chest", root, {0, 1.3F, 0});
+        const int left = rig.add("Shoulder_L", chest, {0.05F, 1.45F, 0});
+        const int arm = rig.add("Arm_L", flat ? chest : root, {0.18F, 1.45F, 0});
+        rig.add("ForeArm_L", arm, {0.46F, 1.45F, 0});
+        animation::Character character;
+        character.skeleton = makeSkeleton(rig.joints);
+        character.skeleton.skinWeight = rig.skin;
+        const animation::RigFeatures read = animation::readRig(character, true);
+        constexpr float kSure = 4.0F;
+        CHECK(read.names[left].parts[animation::Part::clavicle] >= kSure);
+        CHECK(read.names[arm].parts[animation::Part::upperArm] >= kSure);
+    }
 }
 
 }  // namespace lutka::test
