@@ -64,7 +64,7 @@ bool showsSmallPart(const SourceScene& scene) {
 
 // What a node shrinks to nothing is not seen: weapons and expressions are put away so. Unless a clip has a scale there.
 void hideShrunk(SourceScene& scene) {
-    constexpr double kNothing = 1e-6;
+    constexpr double kNothing = 1e-6;  // of the largest scale that anything is shown in: units are not known yet
     const std::size_t count = scene.nodes.size();
     std::vector<bool> grows(count, false);
     for (const SourceClip& clip : scene.clips)
@@ -78,9 +78,18 @@ void hideShrunk(SourceScene& scene) {
         sceneFromNode.push_back(one.parent < 0 ? own : sceneFromNode[above] * own);
         if (one.parent >= 0 && grows[above]) grows[node] = true;
     }
+    const auto scaleOf = [&](int node) {
+        const glm::dmat3& place = sceneFromNode[static_cast<std::size_t>(node)];
+        return std::max({glm::length(place[0]), glm::length(place[1]), glm::length(place[2])});
+    };
+    double largest = 0.0;
+    for (const SourceInstance& instance : scene.instances)
+        if (instance.skin < 0) largest = std::max(largest, scaleOf(instance.node));
+    for (const SourceSkin& skin : scene.skins)
+        for (const SourceSkin::Joint& joint : skin.joints)
+            largest = std::max(largest, scaleOf(joint.node));
     for (SourceInstance& instance : scene.instances) {
-        const glm::dmat3& place = sceneFromNode[static_cast<std::size_t>(instance.node)];
-        const bool shrunk = std::max({glm::length(place[0]), glm::length(place[1]), glm::length(place[2])}) < kNothing;
+        const bool shrunk = scaleOf(instance.node) <= kNothing * largest;
         if (instance.skin < 0 && shrunk && !grows[static_cast<std::size_t>(instance.node)]) instance.hidden = true;
     }
 }
