@@ -7,6 +7,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <string_view>
 #include <system_error>
@@ -149,7 +150,8 @@ void GltfFile::readContainer() {
     if (!version.empty() && !version.starts_with("2"))
         throw Damage{fmt::format("is glTF {}; glTF 2.0 can be read", version), "convert it to glTF 2.0"};
     const std::string least = asset == nullptr ? "" : textOf(*asset, "minVersion");
-    if (!least.empty() && least != "2.0")
+    constexpr double kOurs = 2.0;
+    if (std::strtod(least.c_str(), nullptr) > kOurs)
         throw Damage{fmt::format("needs a reader of glTF {}; glTF 2.0 can be read", least), "convert it to glTF 2.0"};
 }
 
