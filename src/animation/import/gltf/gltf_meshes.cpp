@@ -85,15 +85,19 @@ std::vector<std::uint32_t> trianglesOf(const std::vector<std::uint32_t>& corners
 }
 
 // The largest number of an index's type ends a strip or fan: glTF 2.0 forbids it, but graphics libraries have it so.
-bool isRestart(std::uint32_t index, std::size_t vertices) {
-    return index >= vertices && (index == 0xFFU || index == 0xFFFFU || index == 0xFFFFFFFFU);
+std::uint32_t restartOf(const json& accessor) {
+    constexpr std::size_t kByte = 5121;
+    constexpr std::size_t kShort = 5123;
+    const std::size_t component = sizeOf(accessor, "componentType", 0);
+    return component == kByte ? 0xFFU : component == kShort ? 0xFFFFU : 0xFFFFFFFFU;
 }
 
 std::vector<std::uint32_t> trianglesOfRuns(const std::vector<std::uint32_t>& corners, std::size_t mode,
-                                           std::size_t vertices) {
+                                           std::size_t vertices, std::uint32_t restart) {
+    const auto isRestart = [&](std::uint32_t index) { return index == restart && index >= vertices; };
     std::vector<std::uint32_t> triangles;
     for (auto start = corners.begin(); start != corners.end();) {
-        const auto end = std::find_if(start, corners.end(), [&](std::uint32_t i) { return isRestart(i, vertices); });
+        const auto end = std::find_if(start, corners.end(), isRestart);
         const std::vector<std::uint32_t> run = trianglesOf({start, end}, mode);
         triangles.insert(triangles.end(), run.begin(), run.end());
         start = end == corners.end() ? end : end + 1;
@@ -103,15 +107,17 @@ std::vector<std::uint32_t> trianglesOfRuns(const std::vector<std::uint32_t>& cor
 
 void readIndices(GltfFile& file, const json& primitive, std::size_t mode, SourceMesh& mesh) {
     std::vector<std::uint32_t> corners;
+    std::uint32_t restart = 0xFFFFFFFFU;
     if (const std::optional<int> indices = indexOf(primitive, "indices", file.count("accessors"))) {
         corners = readIntegers(file, *indices, 1, "indices");
+        restart = restartOf(file.element("accessors", *indices));
     } else {
         corners.resize(mesh.positions.size());
         for (std::size_t i = 0; i < corners.size(); ++i)
             corners[i] = static_cast<std::uint32_t>(i);
     }
     const std::size_t vertices = mesh.positions.size();
-    mesh.indices = mode == kTriangles ? trianglesOf(corners, mode) : trianglesOfRuns(corners, mode, vertices);
+    mesh.indices = mode == kTriangles ? trianglesOf(corners, mode) : trianglesOfRuns(corners, mode, vertices, restart);
     if (std::any_of(mesh.indices.begin(), mesh.indices.end(), [&](std::uint32_t i) { return i >= vertices; }))
         throw Damage{fmt::format("mesh '{}': a triangle names a vertex that is not there", mesh.name)};
 }
