@@ -78,6 +78,33 @@ TEST_CASE("numbers of a glTF that are none are told, and a null is as if it were
     CHECK(warns(soundPost(readSpelled(spelledText(words))), "the translation of nodes"));
 }
 
+TEST_CASE("a number of a glTF that is none is told where a measure stands, and refused where an index does") {
+    const std::string text = spelledText(makePostRig());
+    GltfFile moved = makePostRig();
+    moved.json["nodes"][0]["translation"] = {0.125, 0, 0};
+    const Character told = soundPost(readSpelled(respelled(spelledText(moved), "0.125", "NaN")));
+    CHECK(warns(told, "numbers of its JSON that are none"));
+    CHECK(warns(told, "the translation of nodes"));
+    const auto refusalOf = [&](const std::string& what, const std::string& with) {
+        const std::size_t place = text.find(what);
+        REQUIRE(place != std::string::npos);
+        const std::size_t value = place + what.size();
+        const std::size_t end = text.find_first_of(",]}", value);
+        const Result<Character> read = readSpelled(std::string(text).replace(value, end - value, with));
+        return read.ok() ? "read" : read.error().message;
+    };
+    for (const char* key : {"\"indices\":", "\"skin\":", "\"inverseBindMatrices\":", "\"children\":["}) {
+        INFO(key);
+        CHECK(refusalOf(key, "NaN").find("\"NaN\"") != std::string::npos);
+    }
+    CHECK(refusalOf("\"inverseBindMatrices\":", "1e999").find("\"1e999\"") != std::string::npos);
+    // Words that only begin like one.
+    for (const char* word : {"information", "nanny", "NaN0", "1.#index", "infinite"}) {
+        INFO(word);
+        CHECK(refusalOf("\"scene\":", word).find("broken or cut off") != std::string::npos);
+    }
+}
+
 TEST_CASE("a glTF in UTF-16 is read, and another text in it refused by that") {
     const std::string text = spelledText(makePostRig());
     for (const bool little : {true, false}) {
@@ -103,6 +130,10 @@ TEST_CASE("broken JSON of a glTF is refused with its place, a version to come wi
     const Result<Character> refused = readSpelled(spelledText(later));
     REQUIRE_FALSE(refused.ok());
     CHECK(refused.error().message.find("glTF 2.5") != std::string::npos);
+    for (const char* version : {"1.0", "2", "2.0"}) {
+        later.json["asset"]["minVersion"] = version;
+        soundPost(readSpelled(spelledText(later)));
+    }
 }
 
 TEST_CASE("nodes that a glTF's scene lists twice or below others stand there once") {
@@ -135,6 +166,11 @@ TEST_CASE("a strip or fan may end at the largest number of its index") {
         CHECK(character.meshes[0].indices.size() == post.indices.size());
     }
     primitive["mode"] = 4;
+    CHECK_FALSE(readSpelled(spelledText(file)).ok());
+    // The largest of a byte is none of a short.
+    std::replace(strips.begin(), strips.end(), std::uint16_t{0xFFFF}, std::uint16_t{0xFF});
+    primitive["indices"] = file.addIndices(strips);
+    primitive["mode"] = 5;
     CHECK_FALSE(readSpelled(spelledText(file)).ok());
 }
 
@@ -182,4 +218,18 @@ TEST_CASE("a rigid mesh that its node shrinks to nothing is not seen, unless a c
     const Result<Character> drawn = readSpelled(spelledText(file));
     REQUIRE(drawn.ok());
     CHECK_FALSE(warns(drawn.value(), "hidden in the file"));
+}
+
+TEST_CASE("a rigid figure whose root has a tiny scale is seen, for units are not known there") {
+    GltfFile file;
+    const int mesh = addPostMesh(file, makePost(), mat4(1.0F), false);
+    const int node = file.addNode("Post", -1, mat4(1.0F));
+    file.json["nodes"][static_cast<std::size_t>(node)] = {
+        {"name", "Post"}, {"mesh", mesh}, {"scale", {1e-7, 1e-7, 1e-7}}};
+    const int sword = file.addNode("Sword", node, mat4(1.0F));
+    file.json["nodes"][static_cast<std::size_t>(sword)] = {{"name", "Sword"}, {"mesh", mesh}, {"scale", {0, 0, 0}}};
+    const Result<Character> read = readSpelled(spelledText(file));
+    REQUIRE(read.ok());
+    CHECK(read.value().meshes.size() == 1);
+    CHECK(warns(read.value(), "1 mesh is hidden in the file and was left out: Sword"));
 }

@@ -60,16 +60,17 @@ int escapedUnit(std::string_view text, std::size_t at) {
     return code;
 }
 
-// Whether a word that stands for a value is a number that is none, as C, C#, JavaScript, Python and Microsoft's
-// libraries write such, or one too large for any.
+// Whether a word that stands for a value is as a whole a number that is none, as C, C#, JavaScript, Python and
+// Microsoft's libraries write such, or one too large for any.
 bool isNoNumber(std::string_view word) {
     std::string plain = lowerCased(std::string(word));
-    if (std::isinf(std::strtod(plain.c_str(), nullptr))) return true;
+    char* end = nullptr;
+    if (const double number = std::strtod(plain.c_str(), &end); *end == '\0' && !std::isfinite(number)) return true;
     if (plain.starts_with('-') || plain.starts_with('+')) plain.erase(0, 1);
-    constexpr std::array<std::string_view, 7> kStarts = {"nan",     "inf",     "1.#inf",      "1.#ind",
-                                                         "1.#qnan", "1.#snan", "\xE2\x88\x9E"};
-    return std::any_of(kStarts.begin(), kStarts.end(),
-                       [&](std::string_view start) { return plain.starts_with(start); });
+    if (plain == "\xE2\x88\x9E") return true;  // the sign of infinity
+    plain.erase(std::find_if_not(plain.rbegin(), plain.rend(), [](char c) { return c == '0'; }).base(), plain.end());
+    constexpr std::array<std::string_view, 4> kMicrosoft = {"1.#inf", "1.#ind", "1.#qnan", "1.#snan"};
+    return std::find(kMicrosoft.begin(), kMicrosoft.end(), plain) != kMicrosoft.end();
 }
 
 // Copies a document, well-formed as UTF-8, with what is mended.
@@ -119,7 +120,10 @@ class Mender {
         at_ = end;
         const bool isNone = isNoNumber(word);
         mendedNumbers_ = mendedNumbers_ || isNone;
-        out_ += isNone ? std::string_view("null") : word;
+        // As a text, which is no number and no index for whoever reads it, and is named where it is refused.
+        if (isNone) out_ += '"';
+        out_ += word;
+        if (isNone) out_ += '"';
     }
 
     void copy(std::size_t bytes) {
