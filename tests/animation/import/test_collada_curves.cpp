@@ -109,7 +109,8 @@ TEST_CASE("a Collada curve of Hermite's kind leaves and reaches its keys along i
 
 TEST_CASE("a Collada channel may name the angle of a rotation by its place or in small letters") {
     const std::string start =
-        "<node id=\"A\"><rotate sid=\"r\">0 0 1 0</rotate><matrix sid=\"m\"/><translate sid=\"t\"/></node>";
+        "<node id=\"A\"><rotate sid=\"r\">0 0 1 0</rotate><matrix sid=\"m\"/><translate sid=\"t\"/>"
+        "<rotate sid=\"rotate.x\">1 0 0 0</rotate><rotate>0 1 0 0</rotate></node>";
     const auto plain = [&](const std::string& target) {
         const std::string text =
             rig_import::settledCollada(start + "<channel source=\"#s\" target=\"" + target + "\"/>").text;
@@ -120,7 +121,7 @@ TEST_CASE("a Collada channel may name the angle of a rotation by its place or in
     CHECK(plain("A/r.angle") == "A/r.ANGLE");
     CHECK(plain("A/t.x") == "A/t.X");
     CHECK(plain("A/t(0)") == "A/t.X");
-    for (const char* kept : {"A/r.ANGLE", "A/m(3)", "A/m(3)(0)", "A/r"})
+    for (const char* kept : {"A/r.ANGLE", "A/m(3)", "A/m(3)(0)", "A/r", "A/rotate.x"})
         CHECK(plain(kept) == kept);
 }
 
@@ -275,4 +276,7 @@ TEST_CASE("Collada curves that stay straight though they bend are told") {
     CHECK(holds("LINEAR CARDINAL LINEAR"));
     CHECK(holds("BSPLINE BSPLINE BSPLINE"));
     CHECK_FALSE(holds("LINEAR HERMITE BEZIER"));
+    CHECK_FALSE(holds("LINEAR CARDINALIS LINEAR"));
+    const std::string joints = "<library_controllers><Name_array>A CARDINAL</Name_array></library_controllers>";
+    CHECK_FALSE(rig_import::holdsOtherCurves(rig_import::ColladaDocument(joints)));
 }

@@ -222,12 +222,19 @@ std::string straightSampler(const std::string& id, const std::map<std::string, s
 }  // namespace
 
 bool holdsOtherCurves(const ColladaDocument& document) {
+    constexpr std::string_view kBlanks = " \t\r\n";
+    bool inAnimations = false;
     for (std::size_t i = 0; i + 1 < document.tags.size(); ++i) {
         const ColladaTag& tag = document.tags[i];
-        if (!tag.opens("Name_array")) continue;
-        const std::string_view inside = document.text.substr(tag.end, document.tags[i + 1].start - tag.end);
-        if (inside.find("CARDINAL") != std::string_view::npos || inside.find("BSPLINE") != std::string_view::npos)
-            return true;
+        if (tag.opens("library_animations")) inAnimations = true;
+        if (tag.closes("library_animations")) inAnimations = false;
+        if (!inAnimations || !tag.opens("Name_array")) continue;  // joints have any names
+        std::string_view inside = document.text.substr(tag.end, document.tags[i + 1].start - tag.end);
+        while (!inside.empty()) {
+            const std::string_view word = inside.substr(0, inside.find_first_of(kBlanks));
+            if (word == "CARDINAL" || word == "BSPLINE") return true;
+            inside.remove_prefix(std::min(word.size() + 1, inside.size()));
+        }
     }
     return false;
 }
