@@ -1,25 +1,12 @@
 #include "physics/fit/held_skin.hpp"
 
+#include "animation/carrying_joints.hpp"
+
 namespace lutka::physics {
 namespace {
 
 bool isArmWithoutHand(Role role) {
     return isEitherSide(role, Role::leftUpperArm) || isEitherSide(role, Role::leftLowerArm);
-}
-
-// One a joint: all that it moves is rigid meshes, a model of their own each.
-std::vector<bool> movesOnlyRigid(const animation::Character& character) {
-    std::vector<bool> only(static_cast<std::size_t>(character.skeleton.jointCount()), false);
-    for (const bool rigid : {true, false}) {  // a skin's share in a joint outweighs what hangs on it
-        for (const animation::SkinnedMesh& mesh : character.meshes) {
-            if (mesh.rigid != rigid) continue;
-            for (std::size_t vertex = 0; vertex < mesh.positions.size(); ++vertex) {
-                for (int i = 0; i < animation::kMaxInfluences; ++i)
-                    if (mesh.weights[vertex][i] > 0.0F) only[mesh.joints[vertex][i]] = rigid;
-            }
-        }
-    }
-    return only;
 }
 
 }  // namespace
@@ -29,7 +16,9 @@ std::vector<bool> jointsOfHeldWeapons(const BodyPlan& plan, const animation::Cha
     constexpr float kFewest = 8.0F;  // vertices that the body keeps
     const animation::Skeleton& skeleton = character.skeleton;
     std::vector<bool> held(plan.bodyOfJoint.size(), false);
-    const std::vector<bool> rigid = movesOnlyRigid(character);
+    const animation::CarryingJoints carrying = animation::carryingJoints(character);
+    // All that hangs on the joint is rigid meshes, a model of their own each.
+    const auto isModel = [&](std::size_t joint) { return carrying.rigid[joint] && !carrying.skin[joint]; };
     // All weapons of an arm first: none is the arm's own skin beside another.
     for (const animation::Appendage& appendage : appendages) {
         // A hand may be a part of the branch that ends in a weapon: only what is a model of its own is held.
@@ -38,7 +27,7 @@ std::vector<bool> jointsOfHeldWeapons(const BodyPlan& plan, const animation::Cha
         const int body = plan.bodyOfJoint[static_cast<std::size_t>(appendage.joint)];
         if (body < 0 || plan.bodies[body].segment) continue;
         for (std::size_t joint = 0; joint < held.size(); ++joint) {
-            if (plan.bodyOfJoint[joint] == body && (!hand || rigid[joint]) &&
+            if (plan.bodyOfJoint[joint] == body && (!hand || isModel(joint)) &&
                 animation::isAncestorOrSelf(skeleton, appendage.joint, static_cast<int>(joint)))
                 held[joint] = true;
         }
