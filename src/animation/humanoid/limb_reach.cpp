@@ -13,16 +13,19 @@ vec3 endOfSkin(const FramedRig& framed, LimbKind kind, int first, int last) {
     constexpr float kArm = 0.35F;  // of the shoulders' height: as long as an arm
     const vec3 from = framed.pairs[last].position;
     std::array<vec3, 2> ends{from, from};
+    std::array<bool, 2> isThere{false, false};
     for (std::size_t side = 0; side < ends.size(); ++side) {
         const int joint = framed.pairs[last].joints[side];
         const bool skin = framed.subtreeSkin[joint].count > 0;
         const Box& box = skin ? framed.subtreeSkin[joint] : framed.subtreeJoints[joint];
         if (box.count == 0) continue;
+        isThere[side] = true;
         const vec3 mean = box.mean();
         const float out = side == 0 ? box.high.x : -box.low.x;
         const bool hangs = kind == LimbKind::leg || from.y - box.low.y > out - from.x;
         ends[side] = hangs ? vec3(std::abs(mean.x), box.low.y, mean.z) : vec3(out, mean.y, mean.z);
     }
+    if (isThere[0] != isThere[1]) return isThere[0] ? ends[0] : ends[1];
     const float before = first != last ? framed.segment(first, last) : 0.0F;
     const auto lengthTo = [&](const vec3& end) { return before + glm::distance(from, end); };
     const auto& [shorter, longer] =
