@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "animation/humanoid/evidence_terms.hpp"
+#include "animation/humanoid/name_evidence.hpp"
 
 namespace lutka::animation {
 
@@ -101,9 +102,10 @@ inline constexpr std::size_t kHeldPerRoot = 64;  // before they are thinned to k
 inline constexpr std::size_t kMost = 48;
 inline constexpr int kMostSkipped = 24;  // skinned joints between two placed ones: no limb beyond, and no search either
 inline constexpr float kSlackOfOneJoint = 3.0F;  // a limb of one joint may start anywhere along it
-inline constexpr float kNamedPart = 1.5F;        // a name's score from which it says which part of the limb this is
-inline constexpr float kSurelyNamed = 4.0F;      // … and from which it says nothing else
-inline constexpr float kEndWordLead = 2.0F;      // by how much a name must speak for the hand or foot to make it one
+inline constexpr float kNamedPart =
+    kTellsPartOfLimb;                                // a name's score from which it says which part of the limb this is
+inline constexpr float kSurelyNamed = kTellsSurely;  // … and from which it says nothing else
+inline constexpr float kEndWordLead = 2.0F;  // by how much a name must speak for the hand or foot to make it one
 
 }  // namespace limb_bounds
 

@@ -13,6 +13,9 @@ inline constexpr float kTellsPartOfLimb = 1.5F;
 /// … and of the trunk, from the hips to the head.
 inline constexpr float kTellsTrunkEnd = 2.0F;
 
+/// … surely this one and no other.
+inline constexpr float kTellsSurely = 4.0F;
+
 /// What a joint's name says.
 struct NameEvidence {
     /// Log-likelihood ratio of the name under each part against none: about +4.5 for a clear word, 1 to 2 for a word

@@ -17,7 +17,7 @@ namespace lutka::animation {
 namespace {
 
 // What a name's score says of a part.
-constexpr float kSurely = 4.0F;
+constexpr float kSurely = kTellsSurely;
 constexpr float kMaybe = 2.0F;
 constexpr float kSurelyNot = -2.5F;
 constexpr float kOfOtherPart = -9.0F;  // no place for it at all

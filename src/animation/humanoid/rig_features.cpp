@@ -21,7 +21,6 @@ namespace lutka::animation {
 namespace {
 
 constexpr std::size_t kMaxVertices = 12000;
-constexpr float kTellsSurely = 4.0F;  // a name's score: this part and no other
 
 void readWeights(const Character& character, RigFeatures& rig) {
     const Skeleton& skeleton = character.skeleton;

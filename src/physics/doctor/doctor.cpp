@@ -23,6 +23,7 @@ namespace {
 
 constexpr float kHighRatio = 10.0F;
 constexpr float kExtremeRatio = 20.0F;
+constexpr float kPoint = 5e-3F;         // of the height: joints nearer to each other stand in one place
 constexpr float kMostOfBroken = 40.0F;  // points that a figure whose skin or limbs are elsewhere can have
 
 std::string nameOf(Role role) {
@@ -116,7 +117,6 @@ class Examination {
     // real figures the most is 2.5 times.
     void checkLimbs(Diagnosis& diagnosis, const animation::Skeleton& skeleton) {
         constexpr float kMostUneven = 3.0F;
-        constexpr float kPoint = 5e-3F;  // of the height, as chain-degenerate has it
         using Limb = std::array<Role, 3>;
         constexpr std::array<Limb, 4> kLimbs{Limb{Role::leftUpperArm, Role::leftLowerArm, Role::leftHand},
                                              Limb{Role::rightUpperArm, Role::rightLowerArm, Role::rightHand},
@@ -202,7 +202,7 @@ class Examination {
         for (const ConstraintProfile& c : profile_.constraints) {
             const float distance =
                 glm::distance(plan_.bodies[indexOf(c.parent)].start, plan_.bodies[indexOf(c.child)].start);
-            if (c.parent == 0 || distance >= 0.005F * profile_.heightM) continue;
+            if (c.parent == 0 || distance >= kPoint * profile_.heightM) continue;
             diagnosis.findings.push_back({Severity::warning, "chain-degenerate", link(c),
                                           fmt::format("joints {:.1f} mm apart", 1000.0F * distance),
                                           "leave one of the two roles without a body", false, childOf(c)});
