@@ -77,3 +77,76 @@ TEST_CASE("glTF channels without a sampler, unknown interpolations and values wi
     file.saveText(folder / "values.gltf");
     CHECK(warns(imported(folder / "values.gltf"), "values of animations beyond their last key"));
 }
+
+TEST_CASE("glTF keys in another order than that of their times are sorted, with a word") {
+    const TemporaryFolder folder;
+    GltfFile file = turning(30);
+    const std::array<float, 3> times = {0, 1, 0.5F};
+    const std::array<float, 12> turns = {0, 0, 0, 1, 0, 0, 0.5F, 0.8660254F, 0, 0, 0, 1};
+    nlohmann::json& sampler = file.json["animations"][0]["samplers"][0];
+    sampler["input"] = file.addFloats(times, "SCALAR");
+    sampler["output"] = file.addFloats(turns, "VEC4");
+    file.saveText(folder / "unsorted.gltf");
+    const Character character = imported(folder / "unsorted.gltf");
+    CHECK(turnAtEnd(character) == Approx(60).margin(0.1));
+    CHECK(warns(character, "were sorted: animation 'turn'"));
+}
+
+TEST_CASE("what a glTF's nodes and meshes lack is told, and what names nothing is refused with its place") {
+    const TemporaryFolder folder;
+    const auto told = [&](const GltfFile& file) {
+        file.saveText(folder / "rig.gltf");
+        const Result<Character> read = importCharacter(folder / "rig.gltf");
+        if (!read.ok()) return read.error().text();
+        std::string all;
+        for (const std::string& warning : read.value().warnings)
+            all += warning;
+        return all;
+    };
+    const auto holds = [](const std::string& text, const std::string& part) {
+        INFO(text);
+        CHECK(text.find(part) != std::string::npos);
+    };
+    const GltfFile whole = makePostRig();
+    CHECK(told(whole).empty());
+    GltfFile file = whole;
+    const auto primitive = [&]() -> nlohmann::json& { return file.json["meshes"][0]["primitives"][0]; };
+    const auto fresh = [&] { file = whole; };
+    primitive()["attributes"].erase("WEIGHTS_0");
+    holds(told(file), "left out: the skin of mesh");
+    fresh();
+    primitive()["mode"] = 9;
+    holds(told(file), "meshes of a mode that glTF does not know");
+    fresh();
+    primitive()["attributes"].erase("POSITION");
+    holds(told(file), "meshes without positions");
+    fresh();
+    file.json["nodes"][1]["rotation"] = {0, 0, 0, 0};
+    file.json["nodes"][1].erase("matrix");
+    holds(told(file), "the rotation of nodes that have four zeros there");
+    fresh();
+    file.json["nodes"][1]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    file.json["nodes"][1]["scale"] = {1, 1, 1};
+    holds(told(file), "translation, rotation and scale of nodes that have a matrix, too");
+    fresh();
+    const std::array<std::uint16_t, 4> corners = {0, 1, 2, 3};
+    primitive()["indices"] = file.addIndices(corners);
+    holds(told(file), "corners beyond the last triangle");
+    fresh();
+    file.json["skins"][0]["joints"][1] = 77;
+    holds(told(file), "skins[0]: ");
+    fresh();
+    primitive()["material"] = 8;
+    holds(told(file), "meshes[0]: \"material\" names number 8");
+    fresh();
+    file.json["nodes"][1]["children"] = {55};
+    holds(told(file), "nodes[1]: ");
+    fresh();
+    for (nlohmann::json& node : file.json["nodes"]) {
+        if (node.contains("skin")) node["skin"] = 5;
+    }
+    holds(told(file), "\"skin\" names number 5");
+    file = turning(30);
+    file.json["animations"][0]["samplers"][0]["output"] = 99;
+    holds(told(file), "animations[0]: \"output\" names number 99");
+}

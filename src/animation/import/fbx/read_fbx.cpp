@@ -50,12 +50,26 @@ class SceneReader {
         scene_.clips = sampleMotions(motions, tree_, layout_, frameRateOf(objects_.settings()), scene_.warnings);
         if (movesBlendShapes(document_, objects_))
             scene_.warnings.emplace_back("animations of blend shapes were left out");
+        tellUnread();
         return std::nullopt;
     }
 
     SourceScene take() { return std::move(scene_); }
 
   private:
+    // Surfaces and deformers that have no triangles and joints.
+    void tellUnread() {
+        std::set<std::string> unread;
+        for (const Object& object : objects_.all()) {
+            const std::string_view kind = object.subKind;
+            const bool curved =
+                kind == "NurbsSurface" || kind == "TrimNurbsSurface" || kind == "Nurb" || kind == "Patch";
+            if (curved && object.kind == "Geometry") unread.insert("curved surfaces (NURBS and patches)");
+            if (kind == "VertexCacheDeformer") unread.insert("deformation by vertex caches");
+        }
+        if (!unread.empty()) scene_.warnings.push_back(fmt::format("left out: {}", fmt::join(unread, "; ")));
+    }
+
     void readNodes() {
         const Conventions conventions = conventionsOf(objects_.settings());
         scene_.convention = conventions.stated;

@@ -30,25 +30,33 @@ Interpolation interpolationOf(const std::string& name, GltfFile& file) {
     return name == "CUBICSPLINE" ? Interpolation::cubicSpline : Interpolation::linear;
 }
 
-// Keys whose time is not finite or runs backwards are left out.
-void takeKeys(const Numbers& times, const Numbers& values, SourceChannel& channel, GltfFile& file) {
+// The keys in the order of their times; false where the file has another, which the standard forbids. Keys whose time
+// is not finite are left out.
+bool takeKeys(const Numbers& times, const Numbers& values, SourceChannel& channel, GltfFile& file) {
     const std::size_t parts = channel.interpolation == Interpolation::cubicSpline ? 3 : 1;
     const std::size_t perKey = parts * values.width;
     const std::size_t keys = std::min(times.count, values.count / parts);
     if (keys < times.count) file.leaveOut("keys of animations that have no value");
     if (values.count > times.count * parts) file.leaveOut("values of animations beyond their last key");
+    std::vector<std::size_t> order;
+    order.reserve(keys);
+    for (std::size_t key = 0; key < keys; ++key) {
+        if (std::isfinite(times.at(key, 0)))
+            order.push_back(key);
+        else
+            file.leaveOut("keys of animations whose time is no number");
+    }
+    const auto earlier = [&](std::size_t a, std::size_t b) { return times.at(a, 0) < times.at(b, 0); };
+    const bool isSorted = std::is_sorted(order.begin(), order.end(), earlier);
+    if (!isSorted) std::stable_sort(order.begin(), order.end(), earlier);
     channel.times.reserve(keys);
     channel.values.reserve(keys * perKey);
-    for (std::size_t key = 0; key < keys; ++key) {
-        const double time = times.at(key, 0);
-        if (!std::isfinite(time) || (!channel.times.empty() && time < channel.times.back())) {
-            file.leaveOut("keys of animations whose times run backwards");
-            continue;
-        }
-        channel.times.push_back(time);
+    for (const std::size_t key : order) {
+        channel.times.push_back(times.at(key, 0));
         const auto first = values.values.begin() + static_cast<std::ptrdiff_t>(key * perKey);
         channel.values.insert(channel.values.end(), first, first + static_cast<std::ptrdiff_t>(perKey));
     }
+    return isSorted;
 }
 
 // What a channel moves: a node, and which part of it by glTF's name.
@@ -80,7 +88,8 @@ std::optional<Target> targetOf(const json& channel, std::size_t nodes) {
     return node ? std::optional(Target{*node, textOf(*target, "path")}) : std::nullopt;
 }
 
-void addChannel(GltfFile& file, const json& animation, const json& source, const NodeMap& nodes, SourceClip& clip) {
+void addChannel(GltfFile& file, const json& animation, const json& source, const NodeMap& nodes, SourceClip& clip,
+                std::string& unsorted) {
     const std::optional<Target> target = targetOf(source, nodes.size());
     if (!target) return;  // the specification has such a channel ignored
     const std::optional<SourceChannel::Path> path = pathOf(target->path);
@@ -101,13 +110,15 @@ void addChannel(GltfFile& file, const json& animation, const json& source, const
     const json& sampler = animation.at("samplers").at(static_cast<std::size_t>(*samplerIndex));
     const std::optional<int> input = indexOf(sampler, "input", file.count("accessors"));
     const std::optional<int> output = indexOf(sampler, "output", file.count("accessors"));
-    if (!input || !output) throw Damage{fmt::format("animation '{}' has a sampler without keys", clip.name)};
+    if (!input || !output) throw Damage{fmt::format("'{}' has a sampler without keys", clip.name)};
     SourceChannel channel;
     channel.node = nodes[target->node];
     channel.path = *path;
     channel.interpolation = interpolationOf(textOf(sampler, "interpolation"), file);
     const std::size_t width = *path == SourceChannel::Path::rotation ? 4 : 3;
-    takeKeys(readNumbers(file, *input, 1, "key times"), readNumbers(file, *output, width, "key values"), channel, file);
+    const bool isSorted = takeKeys(readNumbers(file, *input, 1, "key times"),
+                                   readNumbers(file, *output, width, "key values"), channel, file);
+    if (!isSorted && unsorted.empty()) unsorted = fmt::format("animation '{}'", clip.name);
     if (!channel.times.empty()) clip.channels.push_back(std::move(channel));
 }
 
@@ -138,16 +149,21 @@ std::vector<bool> nodesOfPointers(const GltfFile& file, std::string_view part) {
 }
 
 void addClips(GltfFile& file, const NodeMap& nodes, SourceScene& out) {
+    std::string unsorted;  // the first of whose keys are
     for (std::size_t i = 0; i < file.count("animations"); ++i) {
         const json& source = file.element("animations", static_cast<int>(i));
         SourceClip clip;
         clip.name = textOf(source, "name");
         const json* channels = arrayOf(source, "channels");
         for (std::size_t c = 0; channels != nullptr && c < channels->size(); ++c)
-            addChannel(file, source, (*channels)[c], nodes, clip);
+            within("animations", static_cast<int>(i),
+                   [&] { addChannel(file, source, (*channels)[c], nodes, clip, unsorted); });
         keepLastOfEach(clip, file);
         out.clips.push_back(std::move(clip));
     }
+    if (!unsorted.empty())
+        out.warnings.push_back(
+            fmt::format("keys stood in another order than that of their times and were sorted: {}", unsorted));
 }
 
 }  // namespace lutka::animation::rig_import::gltf

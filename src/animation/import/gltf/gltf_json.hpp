@@ -15,6 +15,17 @@ struct Damage {
     std::string mend = "check that the file is whole, or export it again";
 };
 
+/// What `act` gives; a Damage that it throws says in which element of the document it is: "skins[2]: …".
+template <class Act>
+auto within(const char* array, int index, const Act& act) {
+    try {
+        return act();
+    } catch (Damage& damage) {
+        damage.what = std::string(array) + "[" + std::to_string(index) + "]: " + damage.what;
+        throw;
+    }
+}
+
 /// The member of an object; null where there is none, where it is JSON's null (as some writers have what they leave
 /// out), or where `object` is none.
 [[nodiscard]] const nlohmann::json* member(const nlohmann::json& object, const char* key);

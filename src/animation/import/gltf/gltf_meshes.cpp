@@ -116,6 +116,7 @@ void readIndices(GltfFile& file, const json& primitive, std::size_t mode, Source
         for (std::size_t i = 0; i < corners.size(); ++i)
             corners[i] = static_cast<std::uint32_t>(i);
     }
+    if (mode == kTriangles && corners.size() % 3 != 0) file.leaveOut("corners beyond the last triangle of a mesh");
     const std::size_t vertices = mesh.positions.size();
     mesh.indices = mode == kTriangles ? trianglesOf(corners, mode) : trianglesOfRuns(corners, mode, vertices, restart);
     if (std::any_of(mesh.indices.begin(), mesh.indices.end(), [&](std::uint32_t i) { return i >= vertices; }))
@@ -220,7 +221,7 @@ std::optional<SourceMesh> readPrimitive(GltfFile& file, const json& primitive, c
                                         const std::vector<double>& morphs) {
     const std::size_t mode = sizeOf(primitive, "mode", kTriangles);
     if (mode != kTriangles && mode != kTriangleStrip && mode != kTriangleFan) {
-        file.leaveOut("points and lines");
+        file.leaveOut(mode < kTriangles ? "points and lines" : "meshes of a mode that glTF does not know");
         return std::nullopt;
     }
     SourceMesh mesh;
@@ -228,7 +229,10 @@ std::optional<SourceMesh> readPrimitive(GltfFile& file, const json& primitive, c
     mesh.material = indexOf(primitive, "material", file.count("materials")).value_or(-1);
     const Attributes attributes(file, primitive);
     const std::optional<Numbers> positions = attributes.numbers("POSITION", 3);
-    if (!positions) return std::nullopt;
+    if (!positions) {
+        file.leaveOut("meshes without positions");
+        return std::nullopt;
+    }
     const std::size_t count = positions->count;
     const auto three = [](const Numbers& n, std::size_t v) { return n.vector3(v); };
     mesh.positions.reserve(count);
@@ -348,16 +352,20 @@ void addMeshes(GltfFile& file, const NodeMap& nodes, SourceScene& out) {
     const std::vector<bool> hidden = hiddenNodes(file, nodes, order, out);
     for (const int index : order) {
         const json& node = file.element("nodes", index);
-        const std::optional<int> meshIndex = indexOf(node, "mesh", file.count("meshes"));
+        const auto named = [&](const char* key, std::size_t count) {
+            return within("nodes", index, [&] { return indexOf(node, key, count); });
+        };
+        const std::optional<int> meshIndex = named("mesh", file.count("meshes"));
         if (!meshIndex) continue;
-        std::optional<int> skin = indexOf(node, "skin", skinCount);
+        std::optional<int> skin = named("skin", skinCount);
         if (skin && countOf(file.element("skins", *skin), "joints") == 0) {
             file.leaveOut("skins without joints");
             skin.reset();
         }
         if (skin && skinOf.count(*skin) == 0) {
             skinOf[*skin] = static_cast<int>(out.skins.size());
-            out.skins.push_back(readSkin(file, file.element("skins", *skin), nodes, out));
+            out.skins.push_back(
+                within("skins", *skin, [&] { return readSkin(file, file.element("skins", *skin), nodes, out); }));
         }
         const json& source = file.element("meshes", *meshIndex);
         std::vector<double> morphs = weightsOf(node);
@@ -365,13 +373,18 @@ void addMeshes(GltfFile& file, const NodeMap& nodes, SourceScene& out) {
         const auto [found, isNew] = known.try_emplace({*meshIndex, morphs});
         const json* primitives = arrayOf(source, "primitives");
         for (std::size_t i = 0; isNew && primitives != nullptr && i < primitives->size(); ++i) {
-            std::optional<SourceMesh> mesh = readPrimitive(file, (*primitives)[i], textOf(source, "name"), morphs);
+            std::optional<SourceMesh> mesh = within("meshes", *meshIndex, [&] {
+                return readPrimitive(file, (*primitives)[i], textOf(source, "name"), morphs);
+            });
             if (!mesh) continue;
             found->second.push_back(add(*std::move(mesh)));
         }
         for (const int mesh : found->second) {
             const bool bound = skin && !out.meshes[mesh].influences.empty();
             int placed = mesh;
+            if (skin && !bound)
+                file.leaveOut(fmt::format("the skin of mesh '{}', for its vertices have no joints and weights",
+                                          out.meshes[mesh].name));
             if (bound) {
                 const std::size_t slots = out.skins[skinOf[*skin]].joints.size();
                 std::optional<SourceMesh> kept = withoutStrayInfluences(slots, out.meshes[mesh], file);

@@ -29,7 +29,9 @@ SourceTrs partsOf(GltfFile& file, const json& node) {
     parts.scale = vectorOf(file, node, "scale", glm::dvec3(1.0));
     if (const std::optional<std::vector<double>> q = partOf(file, node, "rotation", 4)) {
         const glm::dquat rotation((*q)[3], (*q)[0], (*q)[1], (*q)[2]);
-        if (glm::length(rotation) > 1e-9) parts.rotation = glm::normalize(rotation);
+        const bool turns = glm::length(rotation) > 1e-9;
+        if (turns) parts.rotation = glm::normalize(rotation);
+        if (!turns) file.leaveOut("the rotation of nodes that have four zeros there");
     }
     return parts;
 }
@@ -45,6 +47,10 @@ SourceNode nodeOf(GltfFile& file, const json& source, int index, int parent) {
     if (node.name.empty()) node.name = fmt::format("nodes[{}]", index);
     node.parent = parent;
     if (const std::optional<std::vector<double>> m = partOf(file, source, "matrix", 16)) {
+        for (const char* part : {"translation", "rotation", "scale"}) {
+            if (member(source, part) != nullptr)
+                file.leaveOut("translation, rotation and scale of nodes that have a matrix, too");
+        }
         for (int i = 0; i < 16; ++i)
             node.parentFromNode[i / 4][i % 4] = (*m)[static_cast<std::size_t>(i)];
     } else {
@@ -81,7 +87,9 @@ std::vector<bool> physicsFrames(const GltfFile& file) {
         if (moves || node.contains("mesh") || node.contains("children") || node.contains("camera")) frames[i] = false;
     }
     for (int skin = 0; skin < static_cast<int>(file.count("skins")); ++skin) {
-        for (const int joint : indicesOf(file.element("skins", skin), "joints", frames.size()))
+        const auto joints =
+            within("skins", skin, [&] { return indicesOf(file.element("skins", skin), "joints", frames.size()); });
+        for (const int joint : joints)
             frames[joint] = false;
     }
     return frames;

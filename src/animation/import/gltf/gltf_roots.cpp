@@ -110,7 +110,9 @@ void bringJoints(const GltfFile& file, const NodeTree& tree, std::vector<int>& r
     std::vector<int> tops;
     std::vector<int> walkOf(reached.size(), -1);  // which joint's way up came by; so every node is walked once
     for (const int skin : skinsAmong(file, reached)) {
-        for (const int joint : indicesOf(file.element("skins", skin), "joints", reached.size())) {
+        const auto joints =
+            within("skins", skin, [&] { return indicesOf(file.element("skins", skin), "joints", reached.size()); });
+        for (const int joint : joints) {
             if (reached[joint] || walkOf[joint] >= 0) continue;
             int top = joint;
             walkOf[top] = joint;
@@ -131,7 +133,8 @@ void bringJoints(const GltfFile& file, const NodeTree& tree, std::vector<int>& r
 }  // namespace
 
 std::vector<int> childrenOf(const GltfFile& file, int node) {
-    std::vector<int> children = indicesOf(file.element("nodes", node), "children", file.count("nodes"));
+    std::vector<int> children =
+        within("nodes", node, [&] { return indicesOf(file.element("nodes", node), "children", file.count("nodes")); });
     std::set<int> seen;
     std::erase_if(children, [&](int child) { return !seen.insert(child).second; });
     return children;

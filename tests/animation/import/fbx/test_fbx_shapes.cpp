@@ -227,3 +227,19 @@ TEST_CASE("nodes of another unit than the bind pose are brought to its size, wha
         CHECK(gap(pose, "Spine", "Chest") == Approx(wanted));
     }
 }
+
+TEST_CASE("curved surfaces and vertex caches of an FBX are told") {
+    const auto told = [](const FbxRecord& object) {
+        const SourceScene scene =
+            readAll(document({model(1, "Face", {}), square({}), object}, {fbxLink(1, 0), fbxLink(3, 1)}));
+        std::string all;
+        for (const std::string& warning : scene.warnings)
+            all += warning;
+        return all;
+    };
+    CHECK(told({"Geometry", {std::int64_t{40}, std::string("Geometry::"), std::string("NurbsCurve")}, {}}).empty());
+    CHECK(told({"Geometry", {std::int64_t{40}, std::string("Geometry::"), std::string("NurbsSurface")}, {}}) ==
+          "left out: curved surfaces (NURBS and patches)");
+    CHECK(told({"Deformer", {std::int64_t{40}, std::string("Deformer::"), std::string("VertexCacheDeformer")}, {}}) ==
+          "left out: deformation by vertex caches");
+}
