@@ -34,7 +34,9 @@ int skinRoot(const RigFeatures& rig) {
 }
 
 // Where several branches meet in a control, it gives its place to the heaviest of them: where it moves hardly any skin
-// itself, or little and that branch has most of all. The other branches are orphans then.
+// itself, or little and that branch has most of all. The other branches are orphans then. A joint without skin above
+// most of it is a control on the way (from a file's root, below which IK feet hang beside it): its body would stand in
+// the air.
 int rootJoint(const RigFeatures& rig) {
     int root = skinRoot(rig);
     while (rig.skinned && rig.directWeight[root] < kLeastRootSkin) {
@@ -45,7 +47,8 @@ int rootJoint(const RigFeatures& rig) {
             ++branches;
             if (heaviest == kNoJoint || rig.subtreeWeight[child] > rig.subtreeWeight[heaviest]) heaviest = child;
         }
-        if (branches < 2) return root;
+        if (heaviest == kNoJoint) return root;
+        if (branches < 2 && (rig.directWeight[root] > 0.0F || rig.subtreeWeight[heaviest] < kMostOfSkin)) return root;
         const bool hub = rig.directWeight[root] < kLeastHubSkin || rig.subtreeWeight[heaviest] >= kMostOfSkin;
         if (!hub) return root;
         root = heaviest;

@@ -62,6 +62,29 @@ TEST_CASE("a four-legged creature is parted into trunk, neck, head, tail and leg
     CHECK(rig.standardFromModel == quat(1, 0, 0, 0));
 }
 
+TEST_CASE("a control without skin between the file's root with IK feet and the trunk has no body") {
+    std::vector<test::JointSpec> joints{{"armature", -1, {0, 0, 0}},     {"body", 0, {0, 0.1F, 0}},
+                                        {"pelvis", 1, {0, 0.6F, -0.4F}}, {"ribs", 2, {0, 0.6F, 0.1F}},
+                                        {"skull", 3, {0, 0.8F, 0.5F}},   {"pole", 1, {0, 0.3F, 1}}};
+    std::vector<test::TubeSpec> tubes{
+        {2, {0, 0.6F, 0.1F}, 0.12F}, {3, {0, 0.8F, 0.5F}, 0.12F}, {4, {0, 0.8F, 0.8F}, 0.1F}};
+    for (const float side : {1.0F, -1.0F}) {
+        for (const int above : {2, 3}) {
+            const std::string end = (above == 2 ? "_hind" : "_fore") + std::string(side > 0.0F ? "_l" : "_r");
+            const vec3 top = joints[above].position + vec3(0.1F * side, -0.05F, 0);
+            const vec3 foot(top.x, 0.05F, top.z);
+            joints.push_back({"thigh" + end, above, top});
+            tubes.push_back({static_cast<int>(joints.size()) - 1, foot, 0.05F});
+            joints.push_back({"foot" + end, 0, foot});
+            tubes.push_back({static_cast<int>(joints.size()) - 1, foot + vec3(0, 0, 0.15F), 0.04F});
+        }
+    }
+    const SegmentedRig rig = segmentRig(test::makeFigure("beast", joints, tubes));
+    CHECK(segmentNamed(rig, "armature") < 0);
+    CHECK(segmentNamed(rig, "body") < 0);
+    CHECK(rig.segments[0].name == "pelvis");
+}
+
 TEST_CASE("legs are pairs, what lies in the mirror plane is its own counterpart, and the left one comes first") {
     const SegmentedRig rig = segmentRig(test::makeQuadruped());
     for (const char* limb : {"thigh_fore", "shin_fore", "paw_fore", "thigh_hind", "shin_hind", "paw_hind"}) {
