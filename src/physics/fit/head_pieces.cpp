@@ -19,6 +19,7 @@ using animation::SkinnedMesh;
 constexpr float kMargin = 0.35F;      // of the skull's diagonal: hair and hats lie so near to it
 constexpr float kLargeEnough = 0.2F;  // of the largest piece's area: eyes and teeth are no skull
 constexpr float kAtJoint = 0.25F;     // of a piece's diagonal: so near it begins at the joint
+constexpr float kHoldsJoint = 0.08F;  // of a piece's diagonal from its box: it holds the joint, as hair does
 constexpr float kMostInside = 0.5F;   // of a piece's vertices: it is a part of the skull
 constexpr float kMostGrown = 1.6F;    // of the skull's diagonal: with the parts that lie on it
 
@@ -147,17 +148,23 @@ bool hangsFrom(const Piece& piece, const PlannedBody& head, const Aabb& skull) {
     return !isBeyondJoint(piece, head) && glm::dot(middleOf(piece), up) < lowest;
 }
 
-// The index of the skull itself: the largest of the pieces that begin at the head's joint and lie beyond it.
+// The index of the skull itself: the largest of the pieces that begin at the head's joint and lie beyond it. A hat that
+// is larger than the head stands off the joint by its brim's height, where the head holds the joint: so a piece that
+// does goes before those that don't.
 std::optional<std::size_t> skullOf(const std::vector<Piece>& pieces, const PlannedBody& head) {
     float largest = 0.0F;
     for (const Piece& piece : pieces)
         largest = std::max(largest, piece.area);
     std::optional<std::size_t> best;
+    bool bestHolds = false;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         const Piece& piece = pieces[i];
-        const bool begins = piece.box.distanceTo(head.start) <= kAtJoint * piece.box.diagonal();
-        if (!begins || !isBeyondJoint(piece, head) || piece.area < kLargeEnough * largest) continue;
-        if (!best || piece.area > pieces[*best].area) best = i;
+        const float away = piece.box.distanceTo(head.start) / piece.box.diagonal();
+        if (!(away <= kAtJoint) || !isBeyondJoint(piece, head) || piece.area < kLargeEnough * largest) continue;
+        const bool holds = away <= kHoldsJoint;
+        if (best && (holds == bestHolds ? piece.area <= pieces[*best].area : bestHolds)) continue;
+        best = i;
+        bestHolds = holds;
     }
     return best;
 }
@@ -174,6 +181,7 @@ float shareWithin(const Piece& piece, const Aabb& box, float margin) {
 // of the skull with the pieces that count whole.
 std::vector<float> reachesOf(const std::vector<Piece>& pieces, std::size_t skull, const PlannedBody& head, Aabb& box) {
     constexpr float kAll = 1e9F;
+    constexpr float kOfHat = 0.3F;
     std::vector<float> reaches(pieces.size(), 0.0F);
     reaches[skull] = kAll;
     box = pieces[skull].box;
@@ -186,7 +194,9 @@ std::vector<float> reachesOf(const std::vector<Piece>& pieces, std::size_t skull
             Aabb larger = box;
             larger.add(pieces[i].box);
             const bool isWhole = larger.diagonal() <= most;
-            reaches[i] = isWhole ? kAll : hangsFrom(pieces[i], head, box) ? 0.0F : margin;
+            // What is larger than the skull and no part of it is a hat: its brim is not the head.
+            const float begins = pieces[i].area > pieces[skull].area ? kOfHat * margin : margin;
+            reaches[i] = isWhole ? kAll : hangsFrom(pieces[i], head, box) ? 0.0F : begins;
             if (isWhole) box = larger;
             grown = grown || isWhole;
         }
