@@ -257,7 +257,48 @@ void findBodiesBesideSkin(const BodyPlan& plan, std::span<const PlacedShape> sha
     }
 }
 
+// Whether no skin is at a point, and no body but the one asked about.
+bool isInTheAir(const BodyPlan& plan, std::span<const PlacedShape> shapes, std::size_t body, const vec3& point,
+                float atHand) {
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+        const vec3 inBody = inverse(shapes[i].standardFromBody) * point;
+        if (i != body && signedDistance(shapes[i].shape, inBody) <= kTouching * plan.heightM) return false;
+        for (const SkinPoint& skin : plan.bodies[i].skin)
+            if (glm::distance(skin.position, point) <= atHand) return false;
+    }
+    return true;
+}
+
 }  // namespace
+
+std::vector<Finding> findBodiesInTheAir(const BodyPlan& plan, std::span<const PlacedShape> shapes) {
+    constexpr int kSamples = 5;
+    std::vector<Finding> findings;
+    const bool hasSkin =
+        std::any_of(plan.bodies.begin(), plan.bodies.end(), [](const PlannedBody& body) { return !body.skin.empty(); });
+    for (std::size_t i = 0; i < shapes.size() && hasSkin; ++i) {
+        const vec3 half = halfExtents(shapes[i]);
+        const float surface = 8.0F * (half.x * half.y + half.y * half.z + half.z * half.x);
+        if (areaOf(plan.bodies[i]) >= kLeastSkin * surface) continue;
+        const float thin = std::min({half.x, half.y, half.z});
+        int inTheAir = 0;
+        for (int k = 0; k < kSamples; ++k) {
+            const float along = (half.y - thin) * (2.0F * static_cast<float>(k) / (kSamples - 1) - 1.0F);
+            const vec3 point = shapes[i].standardFromBody * vec3(0, along, 0);
+            inTheAir += isInTheAir(plan, shapes, i, point, thin + kTouching * plan.heightM) ? 1 : 0;
+        }
+        if (3 * inTheAir <= kSamples) continue;
+        findings.push_back(
+            {Severity::warning,
+             "body-in-the-air",
+             plan.bodies[i].name,
+             fmt::format("{} of {} points along it are where there is no skin and no other body", inTheAir, kSamples),
+             "leave its joint without a body, or give the skin weights on it",
+             false,
+             {plan.bodies[i].name}});
+    }
+    return findings;
+}
 
 std::vector<Finding> findBrokenFigure(const animation::Character& character, const BodyPlan& plan,
                                       std::span<const PlacedShape> shapes, const FitMeasures& fit) {

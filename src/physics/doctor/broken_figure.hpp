@@ -15,4 +15,8 @@ namespace lutka::physics {
 [[nodiscard]] std::vector<Finding> findBrokenFigure(const animation::Character& character, const BodyPlan& plan,
                                                     std::span<const PlacedShape> shapes, const FitMeasures& fit);
 
+/// Bodies without skin that stand beside the figure, as on a control below a creature: code `body-in-the-air`, a
+/// warning, for the parts of some figures that are not drawn have them. Arguments as above.
+[[nodiscard]] std::vector<Finding> findBodiesInTheAir(const BodyPlan& plan, std::span<const PlacedShape> shapes);
+
 }  // namespace lutka::physics

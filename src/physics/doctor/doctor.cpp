@@ -24,6 +24,7 @@ namespace {
 constexpr float kHighRatio = 10.0F;
 constexpr float kExtremeRatio = 20.0F;
 constexpr float kPoint = 5e-3F;         // of the height: joints nearer to each other stand in one place
+constexpr float kMostWithAir = 90.0F;   // points of a figure one of whose bodies is where nothing is
 constexpr float kMostOfBroken = 40.0F;  // points that a figure whose skin or limbs are elsewhere can have
 
 std::string nameOf(Role role) {
@@ -216,6 +217,7 @@ class Examination {
             const BodyProfile& left = profile_.bodies[index];
             const int other = counterpartOf(profile_, index);
             if (sideOf(profile_, index) != animation::Side::left || other < 0) continue;
+            if (plan_.bodies[indexOf(index)].posedApart) continue;
             const BodyProfile& right = profile_.bodies[other];
             const auto differ = [](float a, float b) { return std::abs(a - b) / std::max(a, b); };
             const float size = differ(shapeVolume(left.shape), shapeVolume(right.shape));
@@ -257,6 +259,7 @@ class Examination {
             of += p.of;
         }
         diagnosis.score = 100.0F * points / of;
+        if (inTheAir_) diagnosis.score = std::min(diagnosis.score, kMostWithAir);
         if (astray_ > 0 || broken_) diagnosis.score = std::min(diagnosis.score, kMostOfBroken);
     }
 
@@ -264,6 +267,9 @@ class Examination {
         const std::vector<Finding> broken = findBrokenFigure(character, plan_, shapesOfPlan(), diagnosis.fit);
         broken_ = broken_ || !broken.empty();
         diagnosis.findings.insert(diagnosis.findings.end(), broken.begin(), broken.end());
+        const std::vector<Finding> aside = findBodiesInTheAir(plan_, shapesOfPlan());
+        inTheAir_ = !aside.empty();
+        diagnosis.findings.insert(diagnosis.findings.end(), aside.begin(), aside.end());
     }
 
     [[nodiscard]] bool matches() const { return plan_.bodies.size() == profile_.bodies.size(); }
@@ -392,8 +398,9 @@ class Examination {
     NewShapes newShapes_;
     float worstRatio_ = 1.0F;
     int brokenLimits_ = 0;
-    int astray_ = 0;       // roles whose joints hang on another limb
-    bool broken_ = false;  // as a whole
+    int astray_ = 0;         // roles whose joints hang on another limb
+    bool broken_ = false;    // as a whole
+    bool inTheAir_ = false;  // a body is
 };
 
 void findMissingJoints(Diagnosis& diagnosis, const RagdollProfile& profile, const animation::Character& character,

@@ -60,6 +60,8 @@ struct Diagnosis {
 /// - `skin-on-one-joint` nine tenths of the skin follow one joint where there are many bodies (error)
 /// - `skin-small` most bodies' skin is less than 45 % as long as they are: another unit (error)
 /// - `body-beside-skin` a body lies beside all the skin that follows it and hardly touches any (error)
+/// - `body-in-the-air` a body that moves no skin is where there is none, nor another body (warning; the score is 90 at
+///   most)
 /// - `mass-ratio` above 10 : 1 across a constraint (warning; above 20 : 1 error)
 /// - `bind-outside-limits` a limit excludes the bind pose: energy appears at the first step (error)
 /// - `limit-impossible` a limit more than 230 degrees from the bind pose (error)

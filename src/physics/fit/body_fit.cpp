@@ -16,7 +16,6 @@
 namespace lutka::physics {
 namespace {
 
-constexpr std::size_t kFewestShapePoints = 24;
 constexpr std::size_t kCorners = 8;
 constexpr float kClearly = 0.85F;         // of a cost: another way to lie is clearly nearer
 constexpr float kSmallestRadius = 0.01F;  // of the height, like the next
@@ -62,7 +61,7 @@ BodyFit::BodyFit(const BodyPlan& plan, const Anatomy& anatomy, int body)
     points_ = skinNearSegment(plan, body_);
     central_ = plan.symmetric && body_.mirror == body;
     standsOn_ = isLastOfLeg(body);
-    if (plan.symmetric && body_.mirror >= 0) addMirrored();
+    if (central_ || plan.isPaired(body_)) addMirrored();
     if (points_.size() >= kFewestShapePoints) spread_ = principalAxes(points_).spread[1];
 }
 
@@ -160,11 +159,13 @@ float BodyFit::cutoff() const {
     return std::max(kCutoff * plan_.heightM, (body_.role == Role::head ? 1.0F : 0.5F) * spread_);
 }
 
-// Both sides of a symmetric figure tell about one shape.
+// Both sides of a symmetric figure tell about one shape, but for the one that holds something.
 void BodyFit::addMirrored() {
-    const int other = body_.mirror;
-    const vec3 shift = body_.start - plan_.mirror(plan_.bodies[other].start);
-    for (const SkinPoint& point : skinNearSegment(plan_, plan_.bodies[other]))
+    const PlannedBody& other = plan_.bodies[body_.mirror];
+    if (!central_ && other.holds) return;
+    if (!central_ && body_.holds) points_.clear();
+    const vec3 shift = body_.start - plan_.mirror(other.start);
+    for (const SkinPoint& point : skinNearSegment(plan_, other))
         points_.push_back({plan_.mirror(point.position) + (central_ ? vec3(0) : shift), point.area});
 }
 
@@ -230,16 +231,19 @@ vec3 BodyFit::inMirrorPlane(const vec3& direction) {
     return glm::length(flat) > 1e-3F ? glm::normalize(flat) : vec3(0, 0, 1);
 }
 
-// Standing or lying across: whichever lies nearer to the skin.
+// Standing or lying across: whichever lies nearer to the skin; or ahead, where that is clearly nearer: a head with a
+// beak or a snout.
 Capsule BodyFit::fitStandingOrLying() const {
-    const std::array<vec3, 2> directions{rotation_ * vec3(0, 1, 0), rotation_ * vec3(1, 0, 0)};
+    const std::array<vec3, 3> directions{rotation_ * vec3(0, 1, 0), rotation_ * vec3(1, 0, 0),
+                                         rotation_ * vec3(0, 0, 1)};
     Capsule best;
     float least = 0.0F;
-    for (const vec3& direction : directions) {
-        const CapsuleSearch search = searchAlong({plan_.middleX, body_.start.y, body_.start.z}, axesAlong(direction));
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+        const vec3 origin(plan_.middleX, body_.start.y, body_.start.z);
+        const CapsuleSearch search = searchAlong(origin, axesAlong(directions[i]));
         const Capsule capsule = fitFree(search);
         const float cost = search.cost(capsule);
-        if (least == 0.0F || cost < least) {
+        if (i == 0 || cost < (i == 2 ? kClearly : 1.0F) * least) {
             least = cost;
             best = capsule;
         }

@@ -11,6 +11,7 @@
 #include "physics/fit/body_tips.hpp"
 #include "physics/fit/head_skin.hpp"
 #include "physics/fit/held_skin.hpp"
+#include "physics/fit/odd_pairs.hpp"
 #include "physics/fit/skin_regions.hpp"
 
 namespace lutka::physics {
@@ -349,6 +350,7 @@ void findMiddle(BodyPlan& plan) {
         plan.middleX = pairCount > 0 ? pairSum / static_cast<float>(pairCount) : plan.bodies[0].start.x;
     }
     plan.symmetric = isSymmetric(plan);
+    if (plan.symmetric) findOddPairs(plan);
 }
 
 }  // namespace

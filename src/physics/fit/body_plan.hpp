@@ -27,6 +27,8 @@ struct PlannedBody {
     vec3 end{0, 0, 0};            ///< The next joint down the limb, or the tip.
     bool endsAtJoint = false;     ///< False: `end` is a tip, from the skin or from proportions.
     std::vector<SkinPoint> skin;  ///< The vertices that the joint and what follows it own.
+    bool posedApart = false;      ///< Its skin lies elsewhere than its counterpart's, though their joints mirror.
+    bool holds = false;           ///< Its skin reaches beyond its counterpart's, as with a torch: that one's tells.
     bool asHull = false;          ///< Whether the convex hull of its skin is asked for as its shape.
 
     [[nodiscard]] vec3 direction() const;  ///< Unit, from start to end.
@@ -51,12 +53,17 @@ struct BodyPlan {
     /// -1 where there is none of that name.
     [[nodiscard]] int bodyNamed(std::string_view name) const;
     [[nodiscard]] vec3 mirror(const vec3& point) const { return {2.0F * middleX - point.x, point.y, point.z}; }
+    /// Whether it and its counterpart on the other side get one shape.
+    [[nodiscard]] bool isPaired(const PlannedBody& body) const {
+        return symmetric && body.side != animation::Side::center && body.mirror >= 0 && !body.posedApart;
+    }
     /// Whether its shape is made of its left counterpart's, which may come after it.
     [[nodiscard]] bool isMirrored(const PlannedBody& body) const {
-        return symmetric && body.side == animation::Side::right && body.mirror >= 0;
+        return isPaired(body) && body.side == animation::Side::right;
     }
 };
 inline constexpr float kSymmetryTolerance = 0.02F;
+inline constexpr std::size_t kFewestShapePoints = 24;  ///< Of skin that tells a shape.
 
 /// The direction in which a role's segment runs from its joint when the figure stands with arms hanging and palms to
 /// the thighs, in the standard stance's axes; for the left side and the middle (mirror x for the right).

@@ -49,6 +49,11 @@ float reachOf(const BodyPlan& plan, const PlannedBody& body) {
         return std::max(reach, 0.8F * plan.bodies[body.parent].length());
     }
     if (body.role == Role::head && !body.skin.empty()) return std::max(reach, 1.5F * medianDistance(body));
+    if (isEitherSide(body.role, Role::leftFoot) && !body.skin.empty()) {
+        // A beast's heel is its ankle: its claws lie far ahead and below.
+        constexpr float kMostOfFoot = 0.35F;  // of the height
+        return std::clamp(1.3F * distanceOf(body, 0.75F), reach, kMostOfFoot * plan.heightM);
+    }
     const bool starts = isEitherSide(body.role, Role::leftUpperArm) || isEitherSide(body.role, Role::leftUpperLeg);
     if (starts && !body.skin.empty()) return std::max(reach, reachOfWholeLimb(body, plan.heightM));
     return reach;

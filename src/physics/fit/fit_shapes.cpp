@@ -99,7 +99,7 @@ void takeBoxes(const BodyPlan& plan, std::span<const std::optional<BodyFit>> fit
                std::vector<PlacedShape>& shapes) {
     for (int body = 0; body < static_cast<int>(plan.bodies.size()); ++body) {
         const PlannedBody& planned = plan.bodies[body];
-        const bool paired = plan.symmetric && planned.side != Side::center && planned.mirror >= 0;
+        const bool paired = plan.isPaired(planned);
         const auto box = fits[body] ? fits[body]->fitBox(capsules[body]) : std::nullopt;
         if (!box) continue;
         shapes[body] = placeBox(*box);

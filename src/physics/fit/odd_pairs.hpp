@@ -1,0 +1,11 @@
+#pragma once
+
+#include "physics/fit/body_plan.hpp"
+
+namespace lutka::physics {
+
+/// Finds, in a plan whose joints are symmetric, the pairs whose skin is not: PlannedBody::posedApart, and
+/// PlannedBody::holds with the tip that the other side has.
+void findOddPairs(BodyPlan& plan);
+
+}  // namespace lutka::physics
