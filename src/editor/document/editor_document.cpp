@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
+#include <vector>
 
 #include "editor/document/mend_profile.hpp"
 #include "editor/document/mirror_body.hpp"
@@ -22,6 +24,18 @@ using physics::RagdollProfile;
 
 Error outOfRange(const std::vector<std::string>& problems) {
     return {ErrorCode::usage, fmt::format("{}", fmt::join(problems, "; ")), "", "choose a value inside the range"};
+}
+
+// Where what moves begins. Who is placed elsewhere begins anew, as who comes in does.
+std::vector<std::tuple<scene::EntityId, vec3, quat>> startsOf(const scene::EntityScene& scene) {
+    const std::vector<RigidTransform> places = scene::worldFromEntities(scene);
+    std::vector<std::tuple<scene::EntityId, vec3, quat>> starts;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const scene::EntityId id = scene.entities[i].id;
+        if (scene.find<scene::Ragdoll>(id) != nullptr || scene.find<scene::RigidBody>(id) != nullptr)
+            starts.emplace_back(id, places[i].translation, places[i].rotation);
+    }
+    return starts;
 }
 
 }  // namespace
@@ -106,12 +120,8 @@ Result<void> EditorDocument::setScene(const SceneSettings& scene, const std::str
                                       bool moves) {
     auto next = scene_.prepare(scene);
     if (!next) return next.error();
-    const auto moving = [](const SceneSettings& settings) {
-        return std::pair(settings.entities.all<scene::Ragdoll>().size(),
-                         settings.entities.all<scene::RigidBody>().size());
-    };
-    const bool others = moving(next.value()) != moving(scene_.settings());
-    if (!undo_.join(group)) undo_.changed(snapshot(), label, group, moves || others);
+    const bool begins = moves || startsOf(next.value().entities) != startsOf(scene_.settings().entities);
+    if (!undo_.join(group, begins)) undo_.changed(snapshot(), label, group, begins);
     adopt({state_, std::move(next).value(), nullptr});
     return {};
 }
@@ -270,7 +280,10 @@ void EditorDocument::endGroup() {
                was.seed == is.seed && was.pose == is.pose && was.clip == is.clip &&
                physics::profileToJson(before.ragdoll.profile) == physics::profileToJson(state_.profile);
     };
-    if (undo_.groupIsOpen() && isAsBefore(undo_.beforeGroup())) static_cast<void>(undo_.cancelGroup());
+    // What began anew on the way is not where it was: its entry stays. All other ways to the same values go: an edit
+    // that says no more than the fit would hold its part back from the next one.
+    if (undo_.groupIsOpen() && !undo_.undoMoves() && isAsBefore(undo_.beforeGroup()))
+        state_ = undo_.cancelGroup().ragdoll;
     undo_.endGroup();
 }
 

@@ -135,15 +135,16 @@ class EditorDocument {
     /// SceneDocument::start(); not an edit.
     [[nodiscard]] Result<void> startScene(SceneSettings scene);
     /// Entities, gravity, start pose … Fails as SceneDocument::prepare() does.
-    /// `moves`: what runs begins anew with it, as it does whenever characters come or go: undo brings that back too.
+    /// `moves`: what runs begins anew with it, as it does whenever what moves comes, goes or is placed elsewhere: undo
+    /// brings that back too.
     [[nodiscard]] Result<void> setScene(const SceneSettings& scene, const std::string& label,
                                         const std::string& group = "", bool moves = false);
     /// A scene from a file, in place of the present one and as one entry of undo, when its first character is the one
     /// that is edited or none has a model.
     [[nodiscard]] Result<void> useScene(const std::filesystem::path& file, const scene::EntityScene& scene);
 
-    /// Ends a group of changes (the mouse was released, what was typed is done). One that ended as it began leaves no
-    /// entry of undo.
+    /// Ends a group of changes (the mouse was released, what was typed is done). One that ended as it began leaves
+    /// no trace in the document, in undo or in redo, unless what runs has begun anew on the way.
     void endGroup();
     /// Takes the open group of changes back without a trace in undo or redo; nothing when none is open.
     void cancelGroup();

@@ -17,29 +17,36 @@ class UndoStack {
     /// Tells of a change that turned `before` into something else. A `group` other than "" that equals the last
     /// change's joins it, until endGroup(). `moves`: see undoMoves().
     void changed(const Snapshot& before, std::string label, const std::string& group, bool moves = false) {
-        if (join(group)) return;
+        if (join(group, moves)) return;
         openGroup_ = group;
+        redoBeforeGroup_ = std::exchange(redo_, {});
         undo_.push_back({before, std::move(label), moves});
         if (undo_.size() > kMaxEntries) undo_.erase(undo_.begin());
     }
 
     /// The same for a change whose state before nobody has taken yet: whether it joined the open group, so that nobody
     /// needs to.
-    bool join(const std::string& group) {
-        redo_.clear();
-        return !group.empty() && group == openGroup_ && !undo_.empty();
+    bool join(const std::string& group, bool moves = false) {
+        if (group.empty() || group != openGroup_ || undo_.empty()) return false;
+        undo_.back().moves = undo_.back().moves || moves;
+        return true;
     }
 
-    void endGroup() { openGroup_.clear(); }
+    void endGroup() {
+        openGroup_.clear();
+        redoBeforeGroup_.clear();
+    }
     [[nodiscard]] bool groupIsOpen() const { return !openGroup_.empty() && !undo_.empty(); }
 
     /// The state before the open group. groupIsOpen() must hold.
     [[nodiscard]] const Snapshot& beforeGroup() const { return undo_.back().snapshot; }
-    /// Takes the open group back as if it had never been: the state before it. groupIsOpen() must hold.
+    /// Takes the open group back as if it had never been, what could be redone before it included: the state before
+    /// it. groupIsOpen() must hold.
     [[nodiscard]] Snapshot cancelGroup() {
         Snapshot before = std::move(undo_.back().snapshot);
         undo_.pop_back();
-        openGroup_.clear();
+        redo_ = std::move(redoBeforeGroup_);
+        endGroup();
         return before;
     }
 
@@ -64,7 +71,7 @@ class UndoStack {
     void clear() {
         undo_.clear();
         redo_.clear();
-        openGroup_.clear();
+        endGroup();
     }
 
   private:
@@ -82,7 +89,7 @@ class UndoStack {
     }
 
     Snapshot swap(std::vector<Entry>& from, std::vector<Entry>& to, Snapshot present) {
-        openGroup_.clear();
+        endGroup();
         Entry entry = std::move(from.back());
         from.pop_back();
         to.push_back({std::move(present), entry.label, entry.moves});
@@ -92,6 +99,7 @@ class UndoStack {
     std::vector<Entry> undo_;
     std::vector<Entry> redo_;
     std::string openGroup_;
+    std::vector<Entry> redoBeforeGroup_;  ///< What the open group took from `redo_`.
 };
 
 }  // namespace lutka::editor

@@ -71,6 +71,46 @@ TEST_CASE("changes that end as they began leave no entry of undo") {
     CHECK(document->canUndo());
 }
 
+TEST_CASE("a mass that is dragged away and back follows the total as if it had not been touched") {
+    const auto document = makeDocument();
+    const int left = physics::bodyOf(document->profile(), Role::leftUpperLeg);
+    const int right = physics::bodyOf(document->profile(), Role::rightUpperLeg);
+    const float before = document->profile().bodies[left].massKg;
+    REQUIRE(document->setMass(left, before + 1.0F, "mass").ok());
+    REQUIRE(document->setMass(left, before, "mass").ok());
+    document->endGroup();
+    CHECK_FALSE(document->canUndo());
+    physics::FitOptions fit = document->state().fit;
+    fit.totalMassKg = 150.0F;
+    REQUIRE(document->setFit(fit).ok());
+    CHECK(document->profile().bodies[left].massKg == Approx(document->profile().bodies[right].massKg));
+    CHECK(document->profile().bodies[left].massKg > before * 1.2F);
+}
+
+TEST_CASE("a drag that ends as it began or is cancelled leaves what can be redone, one that changes something not") {
+    const auto document = makeDocument();
+    const int hand = physics::bodyOf(document->profile(), Role::leftHand);
+    const float before = document->profile().bodies[hand].massKg;
+    REQUIRE(document->setMass(hand, before * 2.0F).ok());
+    document->undo();
+    REQUIRE(document->setMass(hand, before * 3.0F, "mass").ok());
+    CHECK_FALSE(document->canRedo());
+    REQUIRE(document->setMass(hand, before, "mass").ok());
+    document->endGroup();
+    CHECK(document->canRedo());
+    REQUIRE(document->setMass(hand, before * 3.0F, "mass").ok());
+    document->cancelGroup();
+    REQUIRE(document->canRedo());
+    document->redo();
+    CHECK(document->profile().bodies[hand].massKg == Approx(before * 2.0F));
+    document->undo();
+    REQUIRE(document->setMass(hand, before * 3.0F, "mass").ok());
+    document->endGroup();
+    CHECK_FALSE(document->canRedo());
+    document->endGroup();
+    CHECK_FALSE(document->canRedo());
+}
+
 TEST_CASE("a cancelled drag leaves neither a change nor an entry") {
     const auto document = makeDocument();
     const float before = kneeLimits(*document).upper;

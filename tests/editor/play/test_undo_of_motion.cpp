@@ -143,6 +143,34 @@ TEST_CASE("undo of dropped copies and of another scene brings back what was ther
     CHECK(apart(placesOf(*editor), before) < 1e-5F);
 }
 
+TEST_CASE("undo of a character that was dragged away, and of one dragged back, brings back how far it had fallen") {
+    const auto editor = test::makeEditor();
+    test::pass(*editor, 30);
+    editor->perform(Action::togglePlay);
+    const auto before = placesOf(*editor);
+    const scene::EntityId doll = editor->player().entityOfDoll(0);
+    const RigidTransform start = scene::worldFromEntity(editor->document().scene(), doll);
+    const auto drag = [&](const vec3& by) {
+        REQUIRE(editor->editScene("Move", "move", [&](scene::EntityScene& scene) {
+            scene::placeEntity(scene, doll, {start.rotation, start.translation + by});
+        }));
+    };
+    drag(vec3(2, 0, 0));
+    editor->document().endGroup();
+    REQUIRE(apart(placesOf(*editor), before) > 0.1F);
+    editor->perform(Action::undo);
+    CHECK(apart(placesOf(*editor), before) < 1e-5F);
+    drag(vec3(0));
+    drag(vec3(2, 0, 0));
+    drag(vec3(0));
+    editor->document().endGroup();
+    REQUIRE(apart(placesOf(*editor), before) > 0.1F);
+    REQUIRE(editor->document().canUndo());
+    editor->perform(Action::undo);
+    CHECK(apart(placesOf(*editor), before) < 1e-5F);
+    CHECK_FALSE(editor->document().canUndo());
+}
+
 TEST_CASE("a wrong mapping and then the right one bring the pose back, and so does undo") {
     const auto editor = test::makeEditor();
     test::pass(*editor, 40);
