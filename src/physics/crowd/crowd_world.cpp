@@ -77,7 +77,7 @@ class CrowdWorld final : public World {
     void advance(float dt, const std::function<void()>& afterSubstep) override;
     void useSubsteps(int substeps) override {
         state_.tuning.substeps = substeps;
-        state_.settings.substeps = substeps;  // told: no small doll that comes later raises it
+        areSubstepsSet_ = true;
     }
     void setBodiesAt(int doll, std::span<const BodyState> bodies) override;
     void wakeAt(int doll) override { wakeDoll(state_.ragdolls[doll]); }
@@ -112,6 +112,7 @@ class CrowdWorld final : public World {
     CrowdState state_;
     int ownSubsteps_;  // of figures that are not small
     StepTimes times_;
+    bool areSubstepsSet_ = false;
 };
 
 void CrowdWorld::wakeAll() {
@@ -169,7 +170,7 @@ void CrowdWorld::addDollAs(DollId id, const RagdollProfile& profile, std::span<c
     const int index = crowd::addDoll(state_, makeTopology(profile, state_.tuning.leastGyration), &profile, bodies);
     state_.dolls[index].side = {Side::Kind::doll, id, {}, {}, 0};
     state_.ragdolls.push_back(index);
-    if (!state_.settings.substeps) {
+    if (!state_.settings.substeps && !areSubstepsSet_) {
         const float wanted = std::ceil(static_cast<float>(ownSubsteps_) / state_.dolls[index].pace);
         state_.tuning.substeps = std::max(state_.tuning.substeps, static_cast<int>(wanted));
     }

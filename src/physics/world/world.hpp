@@ -87,8 +87,10 @@ class World : public WorldView {
     /// with more energy than DollGuard::kMostGain allows. Each was put back to where it was before that step and to
     /// sleep (without sleeping: to rest), and forgot what its joints carried; others do not feel it.
     [[nodiscard]] std::span<const CaughtDoll> caught() const { return guard_.caught(); }
-    /// From the next step on, >= 1. Fewer than the solver's own: cheaper in proportion, softer joints, deeper contacts.
-    /// The stock world keeps its one. Holds for dolls that come later, too, also for small ones, which ask for more.
+    /// From the next step on, >= 1: sets substepsPerStep(). Fewer than the solver's own: cheaper in proportion, softer
+    /// joints, deeper contacts. The stock world keeps its one. Holds for dolls that come later, too, also for small
+    /// ones, which ask for more. Unlike WorldSettings::substeps it is no bound: long steps and fast dolls have more, as
+    /// ever.
     void setSubsteps(int substeps);
 
     /// Places a doll anew (reset, scrubbing); wakes it.

@@ -104,3 +104,36 @@ TEST_CASE("the number of substeps changes while dolls fall and none tears") {
         CHECK(worst < 0.03F);
     }
 }
+
+TEST_CASE("setting the number of substeps that there is changes nothing, in long steps and fast falls either") {
+    using namespace lutka;
+    const physics::RagdollProfile profile = test::makePair(physics::HingeLimits{-1.0F, 1.0F});
+    for (const float dt : {1.0F / 60.0F, 0.05F}) {
+        std::vector<physics::BodyState> ends[2];
+        for (const bool sets : {false, true}) {
+            physics::WorldSettings settings;
+            settings.solver = physics::SolverKind::crowd;
+            const auto world = physics::createCrowdWorld(settings);
+            world->addStatic({});
+            std::vector<physics::BodyState> bodies(2);
+            bodies[0].worldFromBody.translation = {-0.2F, 1.0F, 0};
+            bodies[1].worldFromBody.translation = {0.2F, 1.0F, 0};
+            for (std::size_t i = 0; i < 2; ++i) {
+                bodies[i].worldFromBody.rotation =
+                    glm::conjugate(i == 0 ? profile.constraints[0].parentFromFrame.rotation
+                                          : profile.constraints[0].childFromFrame.rotation);
+                bodies[i].linearVelocity = {0, -60.0F, 0};
+            }
+            world->addDoll(profile, bodies);
+            for (int step = 0; step < 20; ++step) {
+                if (sets) world->setSubsteps(world->substepsPerStep());
+                world->step(dt);
+            }
+            ends[sets ? 1 : 0].resize(2);
+            world->getBodies(world->dolls()[0], ends[sets ? 1 : 0]);
+        }
+        INFO(dt);
+        for (std::size_t i = 0; i < 2; ++i)
+            CHECK(ends[0][i].worldFromBody.translation == ends[1][i].worldFromBody.translation);
+    }
+}
