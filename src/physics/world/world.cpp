@@ -14,8 +14,61 @@ namespace {
 bool isAtLeastZero(float value) {
     return std::isfinite(value) && value >= 0.0F;
 }
+bool isPositive(float value) {
+    return std::isfinite(value) && value > 0.0F;
+}
+
+bool hasSize(const PrimitiveShape& shape) {
+    switch (shape.kind) {
+        case PrimitiveShape::Kind::box:
+            return isPositive(shape.halfExtents.x) && isPositive(shape.halfExtents.y) &&
+                   isPositive(shape.halfExtents.z);
+        case PrimitiveShape::Kind::hull:
+            return shape.hull != nullptr;
+        case PrimitiveShape::Kind::capsule:
+            return isPositive(shape.radius) && isAtLeastZero(shape.halfLength);
+        case PrimitiveShape::Kind::sphere:
+            break;
+    }
+    return isPositive(shape.radius);
+}
+
+bool hasSize(const StaticShape& shape) {
+    switch (shape.kind) {
+        case ShapeKind::box:
+            return isAtLeastZero(shape.halfExtents.x) && isAtLeastZero(shape.halfExtents.y) &&
+                   isAtLeastZero(shape.halfExtents.z);
+        case ShapeKind::capsule:
+            return isAtLeastZero(shape.radius) && isAtLeastZero(shape.halfLength);
+        case ShapeKind::sphere:
+            return isAtLeastZero(shape.radius);
+        case ShapeKind::plane:
+        case ShapeKind::hull:
+        case ShapeKind::mesh:
+            break;
+    }
+    return true;
+}
 
 }  // namespace
+
+std::string_view faultOf(const StaticShape& shape) {
+    if (!isFinite(shape.worldFromShape) || !isAtLeastZero(shape.friction) || !hasSize(shape))
+        return "place, size or friction is not finite or below 0";
+    if (shape.kind == ShapeKind::hull) return "a convex hull is a shape of bodies";
+    if (shape.kind == ShapeKind::mesh && shape.mesh == nullptr) return "the mesh is null";
+    return {};
+}
+
+std::string_view faultOf(const DynamicProp& prop) {
+    if (!isFinite(prop.state) || !isPositive(prop.massKg)) return "the state is not finite or the mass not above 0";
+    const auto& more = prop.shape.more;
+    const bool isSound = hasSize(prop.shape) && more.size() <= BodyShape::kMostAdded &&
+                         std::all_of(more.begin(), more.end(), [](const AddedShape& added) {
+                             return hasSize(added) && isFinite(added.bodyFromShape);
+                         });
+    return isSound ? "" : "the shape has no size";
+}
 
 bool World::hasBody(std::string_view call, int doll, int body) const {
     const int count = static_cast<int>(profileOf(dolls()[doll]).bodies.size());
@@ -47,12 +100,8 @@ bool World::isSound(std::string_view call, const std::optional<JointMotor>& moto
 }
 
 StaticId World::addStatic(const StaticShape& shape) {
-    if (!isFinite(shape.worldFromShape) || !isAtLeastZero(shape.friction) || !isFinite(shape.halfExtents)) {
-        refuse("addStatic", "place, size or friction is not finite");
-        return {};
-    }
-    if (shape.kind == ShapeKind::hull) {
-        refuse("addStatic", "a convex hull is a shape of bodies");
+    if (const std::string_view fault = faultOf(shape); !fault.empty()) {
+        refuse("addStatic", fault);
         return {};
     }
     const StaticId id = staticIds_.add();
@@ -61,8 +110,8 @@ StaticId World::addStatic(const StaticShape& shape) {
 }
 
 PropId World::addProp(const DynamicProp& prop) {
-    if (!isFinite(prop.state) || !std::isfinite(prop.massKg) || prop.massKg <= 0.0F) {
-        refuse("addProp", "the state is not finite or the mass not above 0");
+    if (const std::string_view fault = faultOf(prop); !fault.empty()) {
+        refuse("addProp", fault);
         return {};
     }
     const PropId id = propIds_.add();

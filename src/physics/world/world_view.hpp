@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "physics/collision/collision_filter.hpp"
+#include "physics/collision/static_shape.hpp"
 #include "physics/profile/body_state.hpp"
 #include "physics/profile/profile.hpp"
 #include "physics/world/id_table.hpp"
@@ -23,6 +24,10 @@ struct DynamicProp {
     BodyState state;
     CollisionFilter filter;
 };
+
+/// What keeps a world from taking it, in a few words; empty: nothing.
+[[nodiscard]] std::string_view faultOf(const StaticShape& shape);
+[[nodiscard]] std::string_view faultOf(const DynamicProp& prop);
 
 /// One substep's contact between two bodies, for debug draw and reports.
 struct ContactPoint {

@@ -165,10 +165,15 @@ void Simulation::build() {
     dollIds_.clear();
     const bool isFirst = world_ == nullptr;
     world_ = makeWorld(options_.world);
-    for (const physics::StaticShape& shape : scenario_.statics)
-        world_->addStatic(shape);
-    for (const physics::DynamicProp& prop : scenario_.props)
-        world_->addProp(prop);
+    // None is refused: create() has asked the same question.
+    for (const physics::StaticShape& shape : scenario_.statics) {
+        [[maybe_unused]] const physics::StaticId id = world_->addStatic(shape);
+        LUTKA_ASSERT(id.isSet());
+    }
+    for (const physics::DynamicProp& prop : scenario_.props) {
+        [[maybe_unused]] const physics::PropId id = world_->addProp(prop);
+        LUTKA_ASSERT(id.isSet());
+    }
     if (puppets_ != nullptr && !puppets_->settings().limp) {
         const auto startOf = [this](int doll) -> std::span<const BodyState> {
             if (options_.puppet->borrows) return {};

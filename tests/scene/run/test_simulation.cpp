@@ -231,6 +231,43 @@ TEST_CASE("a clip whose name ends in a number after @ is found by its whole name
         auto scenario = makeScenario({.name = "drop"}, Figure{{vec3(-1), vec3(1)}});
         REQUIRE(scenario);
         return Simulation::create(*asset.value(), std::move(scenario).value(), options).ok();
+        Fault{"-3 threads", [](Run& run) { run.options.world.threads = -3; }},
+        Fault{"static shape 0 stands nowhere",
+              [](Run& run) { run.scenario.statics[0].worldFromShape.translation.y = kNan; }},
+        Fault{"static shape 0 stands nowhere",
+              [](Run& run) { run.scenario.statics[0].worldFromShape.rotation = quat(0, 0, 0, 0); }},
+        Fault{"static shape 0: the mesh is null",
+              [](Run& run) { run.scenario.statics[0].kind = physics::StaticShape::Kind::mesh; }},
+        Fault{"static shape 0: place, size or friction", [](Run& run) { run.scenario.statics[0].friction = -1.0F; }},
+        Fault{"static shape 0: place, size or friction",
+              [](Run& run) {
+                  run.scenario.statics[0].kind = physics::StaticShape::Kind::sphere;
+                  run.scenario.statics[0].radius = kNan;
+              }},
+        Fault{"prop 1 stands nowhere",
+              [](Run& run) {
+                  run.scenario.props.resize(2);
+                  run.scenario.props[1].state.worldFromBody.translation.x = kNan;
+              }},
+        Fault{"prop 0: the state is not finite or the mass",
+              [](Run& run) { run.scenario.props.emplace_back().massKg = 0.0F; }},
+        Fault{"prop 0: the state is not finite",
+              [](Run& run) { run.scenario.props.emplace_back().state.linearVelocity.z = kNan; }},
+        Fault{"prop 0: the shape has no size", [](Run& run) { run.scenario.props.emplace_back().shape.radius = kNan; }},
+        Fault{"prop 0: the shape has no size",
+              [](Run& run) { run.scenario.props.emplace_back().shape.kind = physics::BodyShape::Kind::hull; }},
+        Fault{"a hit is on doll 4 of 1",
+              [](Run& run) {
+                  run.scenario.hits.push_back({"chest", 0.0F, vec3(1), 4});
+              }},
+        Fault{"a hit's time or impulse",
+              [](Run& run) {
+                  run.scenario.hits.push_back({"chest", 0.0F, vec3(kNan), -1});
+              }},
+        Fault{"a hit's time or impulse",
+              [](Run& run) {
+                  run.options.puppet.emplace().hits.push_back({"chest", -1.0F, vec3(1), 0});
+              }},
     };
     CHECK(startsAt({"a@b", 1.0F}));  // as a command line reads it
     CHECK(startsAt({"a@b@1", 0.0F}));
@@ -252,6 +289,21 @@ TEST_CASE("drawing between two steps is between their states") {
 TEST_CASE("a baked clip shows the poses that the simulation had") {
     const auto asset = test::bipedRagdoll();
     const auto simulation = start(*asset, "drop");
+TEST_CASE("all of the damping that the settings allow is taken, and no more") {
+    const auto asset = test::bipedRagdoll();
+    SimulationOptions options;
+    options.world.linearDamping = 0.9995F;
+    options.world.angularDamping = 0.9995F;
+    const auto simulation = start(*asset, "drop", options);
+    for (int step = 0; step < 30; ++step)
+        simulation->step();
+    CHECK(simulation->quality().nonFinite == 0);
+    options.world.linearDamping = 1.0F;
+    const auto refused = Simulation::create(*asset, makeScenario({.name = "drop"}, *asset).value(), options);
+    REQUIRE_FALSE(refused);
+    CHECK(refused.error().message == "linear damping is 1, not in [0, 1)");
+}
+
     ClipBaker baker(0, 60.0F, "fall");
     baker.sample(*simulation);
     for (int step = 0; step < 30; ++step) {
