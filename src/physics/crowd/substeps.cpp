@@ -8,9 +8,6 @@
 namespace lutka::physics::crowd {
 namespace {
 
-// Steps a second that CrowdTuning is made for.
-constexpr float kTunedRate = 60.0F;
-
 void scale(Wide& wide, const Wide& by) {
     for (int lane = 0; lane < kLanes; ++lane)
         wide.lane[lane] *= by.lane[lane];
@@ -75,7 +72,7 @@ StepSubsteps substepsFor(const CrowdState& state, float dt) {
     const CrowdTuning& tuning = state.tuning;
     const bool isTold = state.settings.substeps.has_value();
     const auto scaled = [&](int substeps) {
-        const float wanted = std::ceil(static_cast<float>(substeps) * dt * kTunedRate - kRounding);
+        const float wanted = std::ceil(static_cast<float>(substeps) * dt * tuning.rate - kRounding);
         return static_cast<int>(std::clamp(wanted, 1.0F, static_cast<float>(kMost)));
     };
     StepSubsteps found;
@@ -89,8 +86,8 @@ StepSubsteps substepsFor(const CrowdState& state, float dt) {
 void findPace(const CrowdState& state, Batch& batch, const Topology& topology, float dt) {
     constexpr float kStill = 0.2F;  // of the speeds that ask for a substep
     const StepSubsteps& step = state.stepSubsteps;
-    const float frames = dt * kTunedRate;  // that long is the step
     const CrowdTuning& tuning = state.tuning;
+    const float frames = dt * tuning.rate;  // that long is the step
     Wide speed2;
     Wide turn2;
     state.kernels->findMotion(batch.view(topology), speed2, turn2);

@@ -9,9 +9,9 @@ namespace lutka::physics::crowd {
 /// a substep's speeds (CrowdTuning::substepSpeed), and more substeps at most.
 [[nodiscard]] float paceOf(float heightM);
 
-/// How many substeps a step of `dt` seconds has. CrowdTuning's numbers are those of 1/60 s: a longer step has as many
-/// more, a shorter one fewer, so that a substep is about as long at any rate of frames. Where the settings tell how
-/// many, a step has no more than that, however long it is.
+/// How many substeps a step of `dt` seconds has. CrowdTuning's numbers are those of 1 / CrowdTuning::rate s: a longer
+/// step has as many more, a shorter one fewer, so that a substep is about as long at any rate of frames. Where the
+/// settings tell how many, a step has no more than that, however long it is.
 [[nodiscard]] StepSubsteps substepsFor(const CrowdState& state, float dt);
 
 /// Sets by how its dolls move now how many substeps a step of `dt` seconds needs for the batch

@@ -9,9 +9,10 @@ namespace lutka::physics::crowd {
 
 /// What decides quality and cost: of a substep (SubstepTuning), and of all that lies around it.
 struct CrowdTuning : SubstepTuning {
-    int substeps = 6;      ///< A step of 1/60 s; >= 1. More: stiffer joints, shallower contacts, cost in proportion.
-    int calmSubsteps = 3;  ///< A step in which nothing moves fast, >= 1; no more than `substeps`.
-    int restSubsteps = 2;  ///< A step in which hardly anything moves in a world where nothing sleeps, likewise.
+    float rate = 60.0F;  ///< Steps a second that the numbers below are for; a longer step has as many more substeps.
+    int substeps = 6;  ///< A step of 1 / `rate` s; >= 1. More: stiffer joints, shallower contacts, cost in proportion.
+    int calmSubsteps = 3;       ///< A step in which nothing moves fast, >= 1; no more than `substeps`.
+    int restSubsteps = 2;       ///< A step in which hardly anything moves in a world where nothing sleeps, likewise.
     float substepSpeed = 0.5F;  ///< m/s of a body for each substep that a step needs: above six times that it has six.
     float substepTurn = 3.0F;   ///< rad/s, likewise.
     int fastSubsteps = 4;       ///< Times `substeps` that a step of a doll by itself has at most, >= 1.

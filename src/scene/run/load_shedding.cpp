@@ -82,7 +82,7 @@ LoadShedder::LoadShedder(std::span<const Kind> kinds, physics::World& world,
         dolls_[index].id = world.dolls()[index];
     }
     if (settings.slowFrom == ShedSettings::kOff) return;
-    slow_ = makeWorld(worldSettings);
+    slow_ = makeWorld(worldSettings, settings.slowEvery);
     for (const physics::StaticShape& shape : statics)
         slow_->addStatic(shape);
 }

@@ -5,9 +5,11 @@
 
 namespace lutka::scene {
 
-std::unique_ptr<physics::World> makeWorld(const physics::WorldSettings& settings) {
-    return settings.solver == physics::SolverKind::crowd ? physics::createCrowdWorld(settings)
-                                                         : physics::createBulletWorld(settings);
+std::unique_ptr<physics::World> makeWorld(const physics::WorldSettings& settings, int stepsInOne) {
+    if (settings.solver != physics::SolverKind::crowd) return physics::createBulletWorld(settings);
+    physics::crowd::CrowdTuning tuning;
+    tuning.rate /= static_cast<float>(stepsInOne);
+    return physics::createCrowdWorld(settings, tuning);
 }
 
 }  // namespace lutka::scene

@@ -232,6 +232,28 @@ TEST_CASE("a slow doll falls as fast as the others and is drawn at every step") 
     }
 }
 
+TEST_CASE("a slow doll's long step has the substeps of one ordinary step") {
+    // n substeps of a fall from rest reach (n + 1) / n times as far as it should.
+    const auto substepsOf = [](const Crowd& crowd, float before, float seconds) {
+        const float right = 0.5F * 9.81F * seconds * seconds;
+        return 1.0F / ((before - crowd.states(0)[0].worldFromBody.translation.y) / right - 1.0F);
+    };
+    Crowd usual(physics::SolverKind::crowd, {vec3(0, 5, 0)}, {});
+    const float height = usual.states(0)[0].worldFromBody.translation.y;
+    usual.shedder->step(kDt, kFar);
+    const float expected = substepsOf(usual, height, kDt);
+    CHECK(expected > 0.9F);
+    for (const int every : {2, 4}) {
+        ShedSettings settings;
+        settings.slowFrom = 20.0F;
+        settings.slowEvery = every;
+        Crowd slow(physics::SolverKind::crowd, {vec3(0, 5, 0)}, settings);
+        slow.shedder->step(kDt, kFar);
+        REQUIRE(slow.shedder->measuresOf(0).slow);
+        CHECK(substepsOf(slow, height, static_cast<float>(every) * kDt) == Approx(expected).epsilon(0.02));
+    }
+}
+
 TEST_CASE("dolls that are apart pass through each other and still land on the floor") {
     for (const auto solver : kSolvers) {
         for (const bool apart : {false, true}) {
