@@ -343,7 +343,7 @@ class LUTKA_OT_ragdoll(bpy.types.Operator):
     scene: EnumProperty(name="Scene", items=[(name, name, "") for name in SCENES], default="drop",
                         description="What it falls on")
     seconds: FloatProperty(name="Seconds", default=3.0, min=0.1, max=600.0, description="How long it falls")
-    seed: IntProperty(name="Seed", default=1, min=0, description="Another seed, another fall; 0 stands upright")
+    seed: IntProperty(name="Seed", default=1, min=0, description="Another seed, another fall; 0 stands nearly upright")
     action: BoolProperty(name="Action", default=True, description="Bake the fall into an action of the armature")
     bodies: BoolProperty(name="Rigid bodies", default=True, description="Make the ragdoll's rigid bodies and joints")
     drive: BoolProperty(name="Bones follow the bodies", default=False,

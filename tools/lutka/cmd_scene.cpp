@@ -90,7 +90,7 @@ void addScene(const Command& app) {
     command.option("--model", options->model, "model of the characters that have none");
     addRigOption(command, options->rig);
     command.option("--count", options->count, "number of dolls of a named scene").range(1, 10000).showDefault();
-    command.option("--seed", options->seed, "varies the start of a named scene; 0 stands upright").showDefault();
+    command.option("--seed", options->seed, "varies the start of a named scene; 0 stands nearly upright").showDefault();
     command.option("-o,--output", options->out, "write the scene to this file (*.scene.json); - for stdout");
     command.flag("--json", options->json, "print the scene as a document on stdout");
     command.onRun([options] { runScene(*options); });

@@ -225,7 +225,7 @@ void SceneOptions::addTo(const Command& app) {
     }
     app.option("--scene", scene, "one of " + scenes + ", or a file *.scene.json").showDefault();
     app.option("--count", count, "number of dolls in a named scene; default: 1").range(1, 10000);
-    app.option("--seed", seed, "varies the start of a named scene; 0, the default, stands upright")
+    app.option("--seed", seed, "varies the start of a named scene; 0, the default, stands nearly upright")
         .check([](const std::string& text) {
             const bool digits =
                 !text.empty() && text.size() < 19 && text.find_first_not_of("0123456789") == std::string::npos;

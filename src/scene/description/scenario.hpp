@@ -104,7 +104,7 @@ struct ScenarioInfo {
 struct NamedScene {
     std::string_view name = "drop";
     int count = 1;           ///< Dolls, [1, 10000].
-    std::uint64_t seed = 0;  ///< 0 stands exactly upright; other seeds turn, tilt and nudge the figures.
+    std::uint64_t seed = 0;  ///< 0: the first figure starts nearly upright; see makeScene().
 };
 
 /// makeScene() and compileScene() in one, for dolls of one figure. Fails as they do.
