@@ -1,11 +1,10 @@
 #include "animation/humanoid/trunk_candidates.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "animation/humanoid/evidence_terms.hpp"
-#include "animation/humanoid/stray_faces.hpp"
+#include "animation/humanoid/trunk_measures.hpp"
 
 namespace lutka::animation {
 namespace {
@@ -18,10 +17,6 @@ constexpr float kOneJointTrunk = -1.5F;   // hips and chest in one
 constexpr float kUnskinnedTrunk = -4.0F;  // … that moves no skin
 constexpr float kCarriesThighs = 1.5F;    // the parent of told thighs and of all above, where no name says hips
 constexpr float kHeadless = -3.0F;
-constexpr float kNamedChest = 2.0F;
-constexpr float kNamedHips = 4.0F;
-constexpr float kNamedTrunk = 3.0F;       // a name's score from which it says which part of the trunk this is
-constexpr float kNamedHead = 4.0F;        // a name's score from which it says head and nothing else
 constexpr float kNamedPose = -2.0F;       // the most that the place of a head so named may cost
 constexpr float kOfTwoSkeletons = -4.0F;  // of a trunk and what hangs on it, of its copy
 constexpr float kArmsAboveChest = -1.5F;  // the arms hang on a joint between chest and neck
@@ -30,37 +25,14 @@ constexpr float kCarriesFace = 3.0F;      // eyes or ears hang on it
 constexpr float kGoesOnAlike = -1.0F;     // the joint above it is named as its next segment
 constexpr float kWholeHead = 0.8F;        // of the skin above the arms
 constexpr float kWholePose = -1.0F;       // the most that the place of what keeps so much may cost
-constexpr float kClearlyBelow = 0.4F;     // of the trunk: hips below the chest that they hang on
-constexpr float kUpright = 0.99F;         // cosine between the stance's up and the file's
-constexpr float kSamePlace = 0.01F;       // of the trunk: a copy's
-constexpr float kSameJoint = 0.03F;       // … and of a part that has a joint of its own
 constexpr std::size_t kHeadsTried = 6;
 constexpr std::size_t kHipsTried = 4;
 constexpr float kFarAway = 1e8F;
 
-class TrunkFinder {
+class TrunkFinder : private TrunkMeasures {
   public:
     TrunkFinder(const FramedRig& framed, const LimbCandidate& legs, const LimbCandidate& arms)
-        : framed_(framed),
-          rig_(*framed.rig),
-          legs_(legs),
-          arms_(arms),
-          length_(std::max(arms.root.y - legs.root.y, 0.05F * framed.spread)),
-          slack_(legs.jointCount() + arms.jointCount() < 4 ? 2.0F : 1.0F) {
-        const auto& leg = framed.pairs[legs.first].joints;
-        const auto& arm = framed.pairs[arms.first].joints;
-        legParent_ = rig_.commonAncestor(leg[0], leg[1]);
-        armParent_ = rig_.commonAncestor(arm[0], arm[1]);
-        if (rig_.parents[leg[0]] == rig_.parents[leg[1]]) thighParent_ = rig_.parents[leg[0]];
-        trunkRoot_ =
-            legParent_ == kNoJoint || armParent_ == kNoJoint ? kNoJoint : rig_.commonAncestor(legParent_, armParent_);
-        isCentral_.reserve(static_cast<std::size_t>(rig_.count()));
-        for (int joint = 0; joint < rig_.count(); ++joint) {
-            isCentral_.push_back(standsInTheMiddle(joint));
-            if (isCentral(joint)) central_.push_back(joint);
-        }
-        strayFaces_ = countStrayFaces(framed, central_, armRoot(), arms.root.y);
-    }
+        : TrunkMeasures(framed, legs, arms) {}
 
     TrunkCandidate find(const TrunkBan& ban) {
         TrunkCandidate best;
@@ -163,26 +135,6 @@ class TrunkFinder {
         if (candidates.size() > count) candidates.resize(count);
     }
 
-    [[nodiscard]] const vec3& position(int joint) const { return framed_.positions[joint]; }
-    [[nodiscard]] float name(int joint, Part part) const { return rig_.names[joint].parts[part]; }
-    [[nodiscard]] bool isCentral(int joint) const { return isCentral_[static_cast<std::size_t>(joint)]; }
-    [[nodiscard]] bool standsInTheMiddle(int joint) const {
-        const int pair = framed_.pairOf[joint];
-        if (pair >= 0 && (legs_.uses(pair) || arms_.uses(pair))) return false;
-        // A dancer's or fallen figure's trunk may lie to the side; its names tell.
-        const bool told = isNamedTrunk(joint) || (joint == thighParent_ && legs_.told);
-        const float aside = !told ? 0.12F : framed_.stance.byNames ? 2.0F : 0.4F;
-        return std::abs(position(joint).x) < aside * length_ && pair < 0;
-    }
-    // Share of the skin that a joint moves itself, or by leaves in the middle (rigid parts, collision volumes).
-    [[nodiscard]] float ownSkin(int joint) const {
-        float own = rig_.directWeight[joint];
-        for (const int child : rig_.children[joint]) {
-            if (rig_.children[child].empty() && framed_.pairOf[child] < 0) own += rig_.directWeight[child];
-        }
-        return own;
-    }
-
     [[nodiscard]] float skinTerm(int joint) const {
         const float shadow = rig_.shadow[joint] ? kShadow : 0.0F;
         if (!rig_.skinned) return shadow;
@@ -221,16 +173,6 @@ class TrunkFinder {
         }
         keepBest(hips, kHipsTried);
         return hips;
-    }
-
-    // Moves no skin, and a joint on it does, that starts the spine at the thighs' height: the armature's own node.
-    [[nodiscard]] bool standsForSpine(int joint) const {
-        constexpr float kAtThighs = 0.25F;  // of the trunk
-        if (!rig_.skinned || ownSkin(joint) > 0.0F) return false;
-        return std::any_of(rig_.children[joint].begin(), rig_.children[joint].end(), [&](int child) {
-            return isCentral(child) && ownSkin(child) > 0.0F && rig_.isAncestorOrSelf(child, armRoot()) &&
-                   std::abs(position(child).y - legs_.root.y) < kAtThighs * length_;
-        });
     }
 
     [[nodiscard]] std::vector<Scored> likelyHeads(int banned) const {
@@ -274,63 +216,6 @@ class TrunkFinder {
         return heads;
     }
 
-    [[nodiscard]] bool isNamedTrunk(int joint) const {
-        constexpr std::array<Part, 5> kTrunk{Part::hips, Part::trunk, Part::chest, Part::neck, Part::head};
-        const NameEvidence& said = rig_.names[joint];
-        const auto tells = [&](Part part) { return said.parts[part] >= kNamedTrunk; };
-        return said.side == Side::center && !said.helper && std::any_of(kTrunk.begin(), kTrunk.end(), tells);
-    }
-
-    // A head that is thrust forward is still one by its name.
-    [[nodiscard]] bool isNamedHead(int joint) const { return name(joint, Part::head) >= kNamedHead; }
-
-    // "spine.005" goes on as "spine.006": where the spine is numbered up to the head, the last one is the head.
-    [[nodiscard]] bool goesOnAlike(int joint) const {
-        return std::any_of(rig_.children[joint].begin(), rig_.children[joint].end(), [&](int child) {
-            return isCentral(child) && rig_.carriesSkin(child) && position(child).y > position(joint).y &&
-                   !isInPlaceOf(child, joint) && isSecondSegment(rig_.names[joint], rig_.names[child]);
-        });
-    }
-
-    // Two joints of a face hang on it: eyes, ears. A face in its place is part of it.
-    [[nodiscard]] bool carriesFace(int joint) const { return !rig_.names[joint].face && facesOn(joint) >= 2; }
-
-    [[nodiscard]] int facesOn(int joint) const {
-        int faces = strayFaces_[joint];
-        for (const int child : rig_.children[joint]) {
-            if (rig_.names[child].face) ++faces;
-            if (isInPlaceOf(child, joint)) faces += facesOn(child);
-        }
-        return faces;
-    }
-
-    [[nodiscard]] bool isInPlaceOf(int joint, int other, float tolerance = kSameJoint) const {
-        return glm::distance(position(joint), position(other)) < tolerance * length_;
-    }
-
-    // Skin at and below a joint, without what goes on upwards along the middle: much for a head, little for a neck.
-    [[nodiscard]] float retainedSkin(int joint) const { return rig_.subtreeWeight[joint] - skinOnwards(joint); }
-    // What hangs in the joint's own place is a part of it and goes nowhere.
-    [[nodiscard]] float skinOnwards(int joint) const {
-        float onward = 0.0F;
-        for (const int child : rig_.children[joint]) {
-            if (!isCentral(child)) continue;
-            const bool part = rig_.rigidPart[child] && rig_.children[child].empty() && !rig_.rigidPart[joint];
-            const float weight = isInPlaceOf(child, joint) ? skinOnwards(child) : rig_.subtreeWeight[child];
-            onward = std::max(onward, (part ? 0.3F : 1.0F) * weight);
-        }
-        return onward;
-    }
-
-    // What carries limbs whose joints are all told is hips or chest by its name, in whatever frame a capture begins.
-    [[nodiscard]] bool areToldHips(int joint) const {
-        return isTold() && joint == legParent_ && name(joint, Part::hips) >= kNamedHips;
-    }
-    [[nodiscard]] bool isToldChest(int joint) const {
-        return isTold() && joint == armParent_ && name(joint, Part::chest) >= kNamedChest;
-    }
-    [[nodiscard]] bool isTold() const { return framed_.stance.byNames && legs_.named && arms_.named; }
-
     // Central joints from the thighs up to somewhat above the arms: no face, no tail.
     [[nodiscard]] std::vector<int> possibleChests(int banned) const {
         std::vector<int> chests;
@@ -341,8 +226,6 @@ class TrunkFinder {
         return chests;
     }
 
-    [[nodiscard]] int armRoot() const { return framed_.pairs[arms_.first].joints[0]; }
-    [[nodiscard]] int legRoot() const { return framed_.pairs[legs_.first].joints[0]; }
     [[nodiscard]] float chestScore(const TrunkCandidate& trunk, float neckScore) const {
         const int chest = trunk.chest;
         const vec3& place = position(chest);
@@ -384,41 +267,6 @@ class TrunkFinder {
                       headFirst || isNamedHead(trunk.head) ? 1.5F : 4.0F);
         return score + neckScore;
     }
-
-    // What carries told legs and hangs, beside the spine, on a control of the whole body.
-    [[nodiscard]] bool carriesLegsBelowControl(int joint) const {
-        return joint == legParent_ && legs_.told && trunkRoot_ != kNoJoint && joint != trunkRoot_ &&
-               rig_.names[trunkRoot_].helper && rig_.isAncestorOrSelf(trunkRoot_, joint);
-    }
-
-    // `below` hangs on another joint in this one's place: one of the two is a control rig's. A skin tells better which.
-    [[nodiscard]] bool isCopyOfWhatCarries(int joint, int below) const {
-        if (rig_.skinned || rig_.isAncestorOrSelf(joint, below)) return false;
-        return std::any_of(central_.begin(), central_.end(), [&](int other) {
-            return other != joint && rig_.isAncestorOrSelf(other, below) && !rig_.isAncestorOrSelf(other, joint) &&
-                   isInPlaceOf(other, joint, kSamePlace);
-        });
-    }
-
-    // A trunk that carries its hips: robots whose body is the root. The hips are named so and carry the legs alone, or
-    // hang clearly below the chest with both thighs on them.
-    [[nodiscard]] bool isTurnedOver(int chest, int hips) const {
-        if (chest != armParent_ || hips != legParent_) return false;
-        const bool named = name(hips, Part::hips) >= kNamedHips && name(chest, Part::chest) >= kNamedChest;
-        return named || (hips == thighParent_ && hangsBelow(hips, chest));
-    }
-
-    // The lower of two joints that move skin hangs on the upper one: a tree that starts further up than at the hips. So
-    // do animals', whose trunk lies.
-    [[nodiscard]] bool hangsBelow(int lower, int upper) const {
-        if (framed_.stance.up.y < kUpright) return false;
-        const bool moves = !rig_.skinned || (rig_.directWeight[lower] > 0.0F && rig_.directWeight[upper] > 0.0F);
-        return moves && lower != upper && rig_.isAncestorOrSelf(upper, lower) &&
-               position(upper).y - position(lower).y > kClearlyBelow * length_;
-    }
-
-    // A head that everything hangs on: what carries the arms hangs below it.
-    [[nodiscard]] bool carriesTrunk(int head) const { return armParent_ != kNoJoint && hangsBelow(armParent_, head); }
 
     // How many joints lie between chest and head, and what they are called.
     [[nodiscard]] float neckScore(int chest, int head) const {
@@ -463,20 +311,6 @@ class TrunkFinder {
         }
         return best;
     }
-
-    const FramedRig& framed_;
-    const RigFeatures& rig_;
-    const LimbCandidate& legs_;
-    const LimbCandidate& arms_;
-    float length_;  // from the thighs up to the upper arms
-    float slack_;   // limbs of one joint need not start at the shoulder and the hip
-    int legParent_ = kNoJoint;
-    int thighParent_ = kNoJoint;  // of both, where it is one
-    int armParent_ = kNoJoint;
-    int trunkRoot_ = kNoJoint;
-    std::vector<bool> isCentral_;
-    std::vector<int> central_;
-    std::vector<int> strayFaces_;  // per joint
 };
 
 }  // namespace
