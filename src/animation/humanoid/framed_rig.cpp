@@ -191,6 +191,8 @@ class PairFinder {
                 const float error =
                     glm::distance(mirrored(framed_.positions[a]), framed_.positions[b]) / framed_.spread;
                 if (error > kMaxError || separation(a, b) < kMinSeparation * framed_.spread) continue;
+                // What starts in the middle goes on to one side each: not a head and what it wears in its place.
+                if (ownSeparation(a, b) < kMinSeparation * framed_.spread && !areOnBothSides(a, b)) continue;
                 if (isTrunkAndCopy(a, b)) continue;
                 const bool above = rig_.isAncestorOrSelf(a, b) || rig_.isAncestorOrSelf(b, a);
                 if (above && nameCost(rig_.names[a], rig_.names[b]) >= 0.0F) continue;

@@ -15,6 +15,7 @@
 #include "animation/carrying_joints.hpp"
 #include "animation/counted_vertices.hpp"
 #include "animation/humanoid/names_in_tree.hpp"
+#include "animation/humanoid/names_of_trunk.hpp"
 #include "core/aabb.hpp"
 
 namespace lutka::animation {
@@ -333,6 +334,7 @@ RigFeatures readRig(const Character& character, bool useNames) {
     }
     believeSkinnedControls(rig);
     readNamesInTree(rig);
+    readNamesOfTrunk(rig);
     readOwnWeights(rig);
     doubtPartialSkin(rig);
     findShadows(rig);

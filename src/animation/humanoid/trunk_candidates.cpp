@@ -20,9 +20,14 @@ constexpr float kHeadless = -3.0F;
 constexpr float kNamedPose = -2.0F;       // the most that the place of a head so named may cost
 constexpr float kOfTwoSkeletons = -4.0F;  // of a trunk and what hangs on it, of its copy
 constexpr float kArmsAboveChest = -1.5F;  // the arms hang on a joint between chest and neck
+constexpr float kArmsBelow = -1.5F;       // of a chest that hangs on what carries the arms and moves more
 constexpr float kNamedNoSkin = -2.0F;     // the most that a head so named, on top of all skin, costs without any
 constexpr float kCarriesFace = 3.0F;      // eyes or ears hang on it
 constexpr float kGoesOnAlike = -1.0F;     // the joint above it is named as its next segment
+constexpr float kSpineBelowHead = -3.0F;  // a joint named spine, on which one hangs that may be the head
+constexpr float kPartOfFace = -1.5F;      // a leaf that moves next to nothing of what the joint above it does
+constexpr float kHeavyChest = 0.15F;      // of the skin: what carries both arms and moves so much is the chest
+constexpr float kHeavyNamed = -0.5F;      // … the most that its name may cost
 constexpr float kWholeHead = 0.8F;        // of the skin above the arms
 constexpr float kWholePose = -1.0F;       // the most that the place of what keeps so much may cost
 constexpr std::size_t kHeadsTried = 6;
@@ -154,8 +159,11 @@ class TrunkFinder : private TrunkMeasures {
             const float height = (position(joint).y - legs_.root.y) / length_;
             const float place = near(height, 0.05F, 0.15F * slack_, 6.0F) +
                                 near((position(joint).z - legs_.root.z) / length_, 0.0F, 0.25F, 4.0F);
+            // What all limbs hang on may lie beside them: a figure bent like a bow.
+            const bool carriesAll = joint == trunkRoot_ && joint == thighParent_ && legs_.told && rig_.skinned &&
+                                    rig_.directWeight[joint] > 0.0F;
             float score = name(joint, Part::hips) + skinTerm(joint) + centralTerm(joint) +
-                          (areToldHips(joint) ? std::max(place, kNamedPose) : place);
+                          (areToldHips(joint) || carriesAll ? std::max(place, kNamedPose) : place);
             if (trunkRoot_ != kNoJoint && rig_.isAncestorOrSelf(joint, trunkRoot_)) score += 1.5F;
             if (joint == trunkRoot_) score += 0.6F;
             const bool clear = legs_.told || (!rig_.skinned && !rig_.names[joint].meaningful);
@@ -201,12 +209,14 @@ class TrunkFinder : private TrunkMeasures {
             const bool keepsAll = first || (skinAbove > 0.0F && legs_.names + arms_.names > 0.0F &&
                                             retainedSkin(joint) >= kWholeHead * skinAbove);
             float score = name(joint, Part::head) + skin + centralTerm(joint) +
-                          (isNamedHead(joint) ? std::max(pose, kNamedPose)
-                           : keepsAll         ? std::max(pose, kWholePose)
-                                              : pose);
+                          (isNamedHead(joint) || endsSpine(joint) ? std::max(pose, kNamedPose)
+                           : keepsAll                             ? std::max(pose, kWholePose)
+                                                                  : pose);
             if (skinAbove > 0.0F) score += 2.0F * std::min(retainedSkin(joint) / (0.4F * skinAbove), 1.0F);
             if (carriesFace(joint)) score += kCarriesFace;
             if (!isNamedHead(joint) && goesOnAlike(joint)) score += kGoesOnAlike;
+            if (isSpineBelowHead(joint)) score += kSpineBelowHead;
+            if (!isNamedHead(joint) && isPartOfFace(joint)) score += kPartOfFace;
             // Arms on the head: a head that is the trunk, too, has that name.
             if (rig_.isAncestorOrSelf(joint, armRoot())) score -= first || isNamedHead(joint) ? 1.0F : 6.0F;
             heads.push_back({joint, score});
@@ -221,7 +231,10 @@ class TrunkFinder : private TrunkMeasures {
         std::vector<int> chests;
         for (const int joint : central_) {
             const float height = (position(joint).y - legs_.root.y) / length_;
-            if (joint != banned && ((height > -0.6F && height < 1.4F) || isToldChest(joint))) chests.push_back(joint);
+            // Told arms may start well below the chest that they hang on, where it is named so.
+            const bool told =
+                isToldChest(joint) || (joint == armParent_ && arms_.told && name(joint, Part::chest) >= kNamedChest);
+            if (joint != banned && ((height > -0.6F && height < 1.4F) || told)) chests.push_back(joint);
         }
         return chests;
     }
@@ -235,21 +248,27 @@ class TrunkFinder : private TrunkMeasures {
         if (chest != trunk.hips && rig_.isAncestorOrSelf(chest, trunk.hips) && !isTurnedOver(chest, trunk.hips))
             return -kFarAway;
         float score = skinTerm(chest) + centralTerm(chest) + near((place.z - arms_.root.z) / length_, 0.0F, 0.3F, 4.0F);
-        score +=
-            chest == trunk.hips ? kOneJointTrunk + std::max(name(chest, Part::chest), 0.0F) : name(chest, Part::chest);
+        const bool heavy = chest == armParent_ && rig_.skinned && ownSkin(chest) >= kHeavyChest && !isNamedHead(chest);
+        const float named = name(chest, Part::chest);
+        score += chest == trunk.hips ? kOneJointTrunk + std::max(named, 0.0F)
+                 : heavy             ? std::max(named, kHeavyNamed)
+                                     : named;
         if (chest == trunk.hips && rig_.skinned && ownSkin(chest) <= 0.0F) score += kUnskinnedTrunk;
         if (chest == armParent_ && chest != trunk.hips) {
             score += ownSkin(chest) > 0.0F || !rig_.skinned ? 2.5F : 1.5F;
         } else if (!rig_.isAncestorOrSelf(chest, armRoot())) {
             score -= 0.5F;
+            const bool lighter = rig_.skinned && armParent_ != kNoJoint && isCentral(armParent_) &&
+                                 rig_.directWeight[armParent_] > ownSkin(chest);
+            if (lighter && armParent_ != trunk.hips && rig_.isAncestorOrSelf(armParent_, chest)) score += kArmsBelow;
         }
         if (chest != trunk.hips) {
             const float below = (arms_.root.y - place.y) / length_;
             const float height =
                 near(below, 0.2F, 0.2F * slack_, 5.0F) + atMost(-below, 0.08F, 0.05F * slack_ * slack_, 3.0F);
             // Squat figures' arms start below the joint that they hang from; its name tells.
-            const bool named = chest == armParent_ && name(chest, Part::chest) >= kNamedChest;
-            score += named || isToldChest(chest) ? std::max(height, kNamedPose) : height;
+            const bool told = chest == armParent_ && named >= kNamedChest;
+            score += told || isToldChest(chest) ? std::max(height, kNamedPose) : height;
         }
         // Hips that are named so and carry the legs may hang beside the spine, on a joint of the whole body.
         const bool beside = (trunk.hips == legParent_ && name(trunk.hips, Part::hips) >= kNamedHips) ||
@@ -264,7 +283,7 @@ class TrunkFinder : private TrunkMeasures {
         if (trunk.head == kNoJoint) return score;
         if (isCopyOfWhatCarries(chest, trunk.head)) score += kOfTwoSkeletons;
         score += near((position(trunk.head).y - place.y) / length_, 0.6F, 0.25F,
-                      headFirst || isNamedHead(trunk.head) ? 1.5F : 4.0F);
+                      headFirst || isNamedHead(trunk.head) || endsSpine(trunk.head) ? 1.5F : 4.0F);
         return score + neckScore;
     }
 
@@ -277,8 +296,8 @@ class TrunkFinder : private TrunkMeasures {
         const int lowest = lowestOf(necks);
         if (lowest == kNoJoint) return score;
         score += name(lowest, Part::neck);
-        const bool carries = armParent_ != kNoJoint && armParent_ != chest && armParent_ != lowest &&
-                             rig_.isAncestorOrSelf(chest, armParent_) && rig_.isAncestorOrSelf(armParent_, lowest);
+        const bool carries = std::find(necks.begin(), necks.end(), armParent_) != necks.end() &&
+                             (armParent_ != lowest || name(armParent_, Part::neck) <= 0.0F);
         return carries ? score + kArmsAboveChest : score;
     }
 

@@ -84,6 +84,30 @@ bool TrunkMeasures::goesOnAlike(int joint) const {
     });
 }
 
+bool TrunkMeasures::isSpineBelowHead(int joint) const {
+    constexpr float kAsHeavy = 0.7F;
+    if (!rig_.skinned || name(joint, Part::trunk) < kNamedTrunk || name(joint, Part::head) > 0.0F) return false;
+    return std::any_of(rig_.children[joint].begin(), rig_.children[joint].end(), [&](int child) {
+        const NameEvidence& said = rig_.names[child];
+        const bool mayBeHead = !said.helper && !said.worn && !said.face && said.parts[Part::head] >= 0.0F;
+        return isCentral(child) && mayBeHead && position(child).y > position(joint).y && !isInPlaceOf(child, joint) &&
+               rig_.subtreeWeight[child] >= kAsHeavy * rig_.directWeight[joint];
+    });
+}
+
+bool TrunkMeasures::endsSpine(int joint) const {
+    const int parent = rig_.parents[joint];
+    return parent != kNoJoint && legs_.told && arms_.told && name(joint, Part::trunk) <= 0.0F &&
+           isSpineBelowHead(parent);
+}
+
+bool TrunkMeasures::isPartOfFace(int joint) const {
+    constexpr float kNextToNothing = 0.1F;
+    const int parent = rig_.parents[joint];
+    if (!rig_.skinned || parent == kNoJoint || !isCentral(parent)) return false;
+    return rig_.directWeight[parent] > 0.0F && rig_.subtreeWeight[joint] < kNextToNothing * rig_.directWeight[parent];
+}
+
 int TrunkMeasures::facesOn(int joint) const {
     int faces = strayFaces_[joint];
     for (const int child : rig_.children[joint]) {

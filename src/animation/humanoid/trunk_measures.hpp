@@ -37,6 +37,12 @@ class TrunkMeasures {
     [[nodiscard]] bool standsForSpine(int joint) const;
     /// "spine.005" goes on as "spine.006": where the spine is numbered up to the head, the last one is the head.
     [[nodiscard]] bool goesOnAlike(int joint) const;
+    /// Named as the spine, and a joint without such a name hangs on it, as heavy: a head whose name says nothing.
+    [[nodiscard]] bool isSpineBelowHead(int joint) const;
+    /// Hangs on such a joint, where names tell the limbs: what the spine ends in is the head, however high it lies.
+    [[nodiscard]] bool endsSpine(int joint) const;
+    /// A leaf that moves next to nothing of what the joint above it does: a jaw, an eye.
+    [[nodiscard]] bool isPartOfFace(int joint) const;
     /// Two joints of a face hang on it: eyes, ears. A face in its place is part of it.
     [[nodiscard]] bool carriesFace(int joint) const { return !rig_.names[joint].face && facesOn(joint) >= 2; }
 
