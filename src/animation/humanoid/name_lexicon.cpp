@@ -55,7 +55,7 @@ constexpr Entry kEntries[] = {
      "farm forarm shitaude sitaude maeude zenwan"},
     {Concept::elbow, "dirsek elbow elbows codo ellbogen ellenbogen coude gomito cotovelo hiji hizi"},
     {Concept::wrist, "bilek wrist wrists muneca handgelenk poignet polso pulso tekubi"},
-    {Concept::hand, "el hand hands palm fist mano mao faust hnd te"},
+    {Concept::hand, "el hand hands palm fist mano mao faust hnd kist kisti te"},
     {Concept::leg, "bacak leg legs pierna bein jambe gamba perna ashi asi"},
     {Concept::thigh, "uyluk thigh thighs femur upleg upperleg muslo oberschenkel cuisse coscia coxa thg momo futomomo"},
     {Concept::shin,
@@ -69,7 +69,8 @@ constexpr Entry kEntries[] = {
     {Concept::twist,
      "twist twst roll rolls tw corrective helper muscle fix volume adj adjust share part partial twistbone"},
     {Concept::control,
-     "ik fk ikfk ctrl ctl control controller controls pole poletarget poles target tgt mch org tweak "
+     "ik fk ikfk ctrl ctl control controller controls controle controlador controlo kontrolle pole poletarget poles "
+     "target tgt mch org tweak "
      "effector handle goal tracker lookat aim orient constraint footsteps vis driver rotator pivot locator "
      "loc grp group offset snap camera light lamp assimp prerotation translation parent switch dummy nurbs"},
     {Concept::end, "end nub tip site endsite leaf null headtop toetip effectorend terminal"},
@@ -96,7 +97,8 @@ constexpr Entry kEntries[] = {
      "tail tails wing wings hind hindleg hindlimb hindlimbs hoof paw paws foreleg frontleg fin fins feather feathers "
      "beak claw "
      "claws tentacle tentacles antenna antennae antennas feeler feelers proboscis stinger backleg front rear trunk2 "
-     "withers fetlock mane"},
+     "withers fetlock mane crin crina criniere cauda rabo pata patas zampa pfote delantera delantero trasera trasero "
+     "dianteira dianteiro traseira traseiro"},
 };
 
 std::unordered_map<std::string_view, Concept> makeIndex() {

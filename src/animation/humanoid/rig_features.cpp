@@ -58,9 +58,12 @@ void readRigidParts(const Character& character, RigFeatures& rig) {
 }
 
 // A rigid part's node may lie anywhere: at the origin of the file, or on the other side, where the part was mirrored in
-// the modelling program. Its place is then that of its meshes. Pivots that lie at their part are left alone.
+// the modelling program. Its place is then that of its meshes. So it is where several parts share one place, as near as
+// that may be: a modelling program has made their transforms nothing. Pivots that lie at their part are left alone.
 void placeParts(const Character& character, RigFeatures& rig) {
     constexpr float kBeside = 0.5F;     // of the part's extent, beyond its box
+    constexpr float kOnePlace = 1e-3F;  // of the part's extent
+    constexpr int kSharing = 3;         // parts in one place
     std::map<std::size_t, Aabb> parts;  // by their node, which may carry several meshes
     for (const SkinnedMesh& mesh : character.meshes) {
         if (!mesh.rigid || mesh.joints.empty() || mesh.positions.empty()) continue;
@@ -70,9 +73,19 @@ void placeParts(const Character& character, RigFeatures& rig) {
         for (const vec3& position : mesh.positions)
             part.add(position);
     }
+    const std::vector<vec3> nodes = rig.positions;
+    const auto isShared = [&](const vec3& place) {
+        return std::count_if(parts.begin(), parts.end(), [&](const auto& other) {
+                   return glm::distance(nodes[other.first], place) <= kOnePlace * other.second.diagonal();
+               }) >= kSharing;
+    };
     for (const auto& [node, part] : parts) {
         const vec3 margin(kBeside * part.diagonal());
         vec3& place = rig.positions[node];
+        if (isShared(place)) {
+            place = part.middle();
+            continue;
+        }
         const bool away =
             glm::any(glm::lessThan(place, part.low - margin)) || glm::any(glm::greaterThan(place, part.high + margin));
         if (away) place = part.middle();
@@ -265,11 +278,25 @@ float spreadOf(const RigFeatures& rig) {
 bool RigFeatures::isOneOfFingers(int joint) const {
     constexpr float kApart = 0.2F;  // of the way from the joint above
     const int parent = parents[joint];
-    if (!names[joint].finger || parent == kNoJoint) return false;
+    if (parent == kNoJoint) return false;
     const float least = kApart * glm::distance(positions[parent], positions[joint]);
+    if (isOneOfChains(joint, least)) return true;
+    if (!names[joint].finger) return false;
     return std::any_of(children[parent].begin(), children[parent].end(), [&](int other) {
         return names[other].finger && glm::distance(positions[other], positions[joint]) > least;
     });
+}
+
+// Three chains or more without names that hang side by side: what they hang on is the hand or the foot.
+bool RigFeatures::isOneOfChains(int joint, float apart) const {
+    constexpr int kFewest = 3;
+    const auto isChain = [&](int top) { return !names[top].meaningful && !children[top].empty() && carriesSkin(top); };
+    const std::vector<int>& beside = children[parents[joint]];
+    return isChain(joint) && std::count_if(beside.begin(), beside.end(), [&](int other) {
+                                 const bool here = other == joint;
+                                 return isChain(other) &&
+                                        (here || glm::distance(positions[other], positions[joint]) > apart);
+                             }) >= kFewest;
 }
 
 int RigFeatures::namedJoint(Part part, Side side, float least) const {

@@ -47,6 +47,7 @@ struct RigFeatures {
     /// Whether other fingers hang beside this one and start elsewhere: none of them is the hand. One that starts where
     /// all do may be.
     [[nodiscard]] bool isOneOfFingers(int joint) const;
+    [[nodiscard]] bool isOneOfChains(int joint, float apart) const;
     /// The joint whose name says that part most clearly, from that score on, and is no helper's; of equals the one
     /// nearest to the root. kNoJoint without one.
     [[nodiscard]] int namedJoint(Part part, Side side, float least) const;

@@ -15,6 +15,7 @@ constexpr float kNoSkinBelow = -5.0F;
 constexpr float kShadow = -3.0F;
 constexpr float kOneJointTrunk = -1.5F;   // hips and chest in one
 constexpr float kUnskinnedTrunk = -4.0F;  // … that moves no skin
+constexpr float kFileRoot = -6.0F;        // of a node without a mesh at the origin, where a block is the trunk
 constexpr float kCarriesThighs = 1.5F;    // the parent of told thighs and of all above, where no name says hips
 constexpr float kHeadless = -3.0F;
 constexpr float kNamedPose = -2.0F;       // the most that the place of a head so named may cost
@@ -24,7 +25,7 @@ constexpr float kArmsBelow = -1.5F;       // of a chest that hangs on what carri
 constexpr float kNamedNoSkin = -2.0F;     // the most that a head so named, on top of all skin, costs without any
 constexpr float kCarriesFace = 3.0F;      // eyes or ears hang on it
 constexpr float kGoesOnAlike = -1.0F;     // the joint above it is named as its next segment
-constexpr float kSpineBelowHead = -3.0F;  // a joint named spine, on which one hangs that may be the head
+constexpr float kSpineBelowHead = -4.0F;  // a joint named spine, on which one hangs that may be the head
 constexpr float kPartOfFace = -1.5F;      // a leaf that moves next to nothing of what the joint above it does
 constexpr float kHeavyChest = 0.15F;      // of the skin: what carries both arms and moves so much is the chest
 constexpr float kHeavyNamed = -0.5F;      // … the most that its name may cost
@@ -154,18 +155,22 @@ class TrunkFinder : private TrunkMeasures {
         std::vector<Scored> hips;
         const bool namesHips = std::any_of(central_.begin(), central_.end(),
                                            [&](int joint) { return name(joint, Part::hips) >= kNamedHips; });
+        const bool blocks =
+            std::any_of(central_.begin(), central_.end(), [&](int joint) { return isTrunkBlock(joint); });
         for (const int joint : central_) {
             if (joint == banned) continue;
             const float height = (position(joint).y - legs_.root.y) / length_;
             const float place = near(height, 0.05F, 0.15F * slack_, 6.0F) +
                                 near((position(joint).z - legs_.root.z) / length_, 0.0F, 0.25F, 4.0F);
             // What all limbs hang on may lie beside them: a figure bent like a bow.
+            const bool block = isTrunkBlock(joint);
             const bool carriesAll = joint == trunkRoot_ && joint == thighParent_ && legs_.told && rig_.skinned &&
                                     rig_.directWeight[joint] > 0.0F;
             float score = name(joint, Part::hips) + skinTerm(joint) + centralTerm(joint) +
-                          (areToldHips(joint) || carriesAll ? std::max(place, kNamedPose) : place);
+                          (areToldHips(joint) || carriesAll || block ? std::max(place, kNamedPose) : place);
             if (trunkRoot_ != kNoJoint && rig_.isAncestorOrSelf(joint, trunkRoot_)) score += 1.5F;
             if (joint == trunkRoot_) score += 0.6F;
+            if (blocks && isFileRoot(joint)) score += kFileRoot;
             const bool clear = legs_.told || (!rig_.skinned && !rig_.names[joint].meaningful);
             const bool carries = joint == trunkRoot_ && joint == thighParent_ && !standsForSpine(joint);
             if (carries && clear && !namesHips) score += kCarriesThighs;

@@ -57,6 +57,23 @@ float TrunkMeasures::ownSkin(int joint) const {
     return own;
 }
 
+bool TrunkMeasures::isTrunkBlock(int joint) const {
+    constexpr float kBeyond = 0.25F;  // of the trunk
+    if (rig_.skinned || !rig_.rigidPart[joint] || !isCentral(joint) || rig_.names[joint].helper) return false;
+    const PartScores& parts = rig_.names[joint].parts;
+    const float height = (position(joint).y - legs_.root.y) / length_;
+    return std::max({parts[Part::hips], parts[Part::trunk], parts[Part::chest]}) > 0.0F && height > -kBeyond &&
+           height < 1.0F + kBeyond;
+}
+
+bool TrunkMeasures::isFileRoot(int joint) const {
+    if (rig_.rigidPart[joint] || name(joint, Part::hips) >= kNamedChest) return false;
+    int root = joint;
+    while (rig_.parents[root] != kNoJoint)
+        root = rig_.parents[root];
+    return isInPlaceOf(joint, root);
+}
+
 bool TrunkMeasures::standsForSpine(int joint) const {
     constexpr float kAtThighs = 0.25F;  // of the trunk
     if (!rig_.skinned || ownSkin(joint) > 0.0F) return false;

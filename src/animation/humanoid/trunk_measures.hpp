@@ -33,6 +33,10 @@ class TrunkMeasures {
     /// A head that is thrust forward is still one by its name.
     [[nodiscard]] bool isNamedHead(int joint) const;
     [[nodiscard]] bool isInPlaceOf(int joint, int other) const;
+    /// Of a figure of rigid parts: the one part that its name tells as the trunk, between the thighs and the arms.
+    [[nodiscard]] bool isTrunkBlock(int joint) const;
+    /// A node without a mesh where its tree starts, named as no part: the file's, or a group in its place.
+    [[nodiscard]] bool isFileRoot(int joint) const;
     /// Moves no skin, and a joint on it does, that starts the spine at the thighs' height: the armature's own node.
     [[nodiscard]] bool standsForSpine(int joint) const;
     /// "spine.005" goes on as "spine.006": where the spine is numbered up to the head, the last one is the head.
