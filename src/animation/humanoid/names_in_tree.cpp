@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "animation/humanoid/name_lexicon.hpp"
+#include "animation/humanoid/names_of_arms.hpp"
 
 namespace lutka::animation {
 namespace {
@@ -124,47 +125,6 @@ bool isWristInForearm(const RigFeatures& rig, int wrist, int hand) {
     return rig.children[hand].size() >= kFewestFingers && rig.carriesSkin(hand) &&
            glm::distance(rig.positions[wrist], rig.positions[hand]) >
                glm::distance(rig.positions[elbow], rig.positions[wrist]);
-}
-
-// "Shoulder, arm, hand" where nothing is an elbow: where the shoulder is a joint of its own width's arm, as long as the
-// arm, the two are upper arm and forearm.
-void readShouldersAsArms(RigFeatures& rig) {
-    constexpr float kAsLong = 0.7F;
-    const auto isShoulder = [&](int joint) {
-        const PartScores& parts = rig.names[joint].parts;
-        return parts[Part::clavicle] >= kMaybe && parts[Part::clavicle] < kSurely && !rig.names[joint].helper;
-    };
-    const auto isOther = [&](int joint, Side side) {
-        return rig.names[joint].side != side && rig.names[joint].side != Side::center && isShoulder(joint);
-    };
-    std::vector<std::pair<int, int>> found;
-    for (int arm = 0; arm < rig.count(); ++arm) {
-        const int shoulder = rig.parents[arm];
-        const NameEvidence& name = rig.names[arm];
-        if (shoulder == kNoJoint || !isShoulder(shoulder) || rig.names[shoulder].side != name.side) continue;
-        if (!name.bareLimb || !saysConcept(name, Concept::arm) || name.side == Side::center) continue;
-        if (rig.skinned && (rig.directWeight[shoulder] <= 0.0F || rig.directWeight[arm] <= 0.0F)) continue;
-        const std::vector<int>& below = rig.children[arm];
-        const auto hand = std::find_if(below.begin(), below.end(), [&](int child) {
-            return rig.names[child].parts[Part::hand] >= kSurely && rig.carriesSkin(child);
-        });
-        if (hand == below.end()) continue;
-        const float length = glm::distance(rig.positions[shoulder], rig.positions[arm]);
-        if (length < kAsLong * glm::distance(rig.positions[arm], rig.positions[*hand])) continue;
-        // A clavicle starts at the spine, so that the other one starts near it.
-        for (int other = 0; other < rig.count(); ++other) {
-            if (!isOther(other, name.side) || rig.parents[other] != rig.parents[shoulder]) continue;
-            if (glm::distance(rig.positions[shoulder], rig.positions[other]) > length)
-                found.emplace_back(shoulder, arm);
-        }
-    }
-    for (const auto& [shoulder, arm] : found) {
-        rig.names[arm].bareLimb = false;
-        for (const auto& [joint, part] : {std::pair{shoulder, Part::upperArm}, std::pair{arm, Part::lowerArm}}) {
-            rig.names[joint].parts.values.fill(kSurelyNot);
-            rig.names[joint].parts[part] = kSurely;
-        }
-    }
 }
 
 // A word of two meanings has one where its neighbour has the other: a shoulder above an arm is the clavicle and that

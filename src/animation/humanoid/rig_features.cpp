@@ -290,7 +290,10 @@ bool RigFeatures::isOneOfFingers(int joint) const {
 // Three chains or more without names that hang side by side: what they hang on is the hand or the foot.
 bool RigFeatures::isOneOfChains(int joint, float apart) const {
     constexpr int kFewest = 3;
-    const auto isChain = [&](int top) { return !names[top].meaningful && !children[top].empty() && carriesSkin(top); };
+    constexpr int kMostJoints = 5;  // of a finger
+    const auto isChain = [&](int top) {
+        return !names[top].meaningful && !children[top].empty() && carriesSkin(top) && subtreeSize(top) <= kMostJoints;
+    };
     const std::vector<int>& beside = children[parents[joint]];
     return isChain(joint) && std::count_if(beside.begin(), beside.end(), [&](int other) {
                                  const bool here = other == joint;
