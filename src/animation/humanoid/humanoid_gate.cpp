@@ -310,7 +310,10 @@ std::string refusalOf(const Figure& figure, const FramedRig& framed) {
         return "no figure stands upright in it";
     const bool wholeLimbs = figure.legs.named && figure.arms.named && !hasTail(*framed.rig);
     const bool toldTrunk = figure.trunk.names >= kToldTrunk || (wholeLimbs && namesHead(figure, framed));
-    const bool told = figure.legs.told && figure.arms.told && toldTrunk;
+    // So do names of arms, legs and head of rigid blocks, of which there is one or two for each limb.
+    const bool toldBlocks = blocks && !framed.rig->skinned && namesHead(figure, framed) && tilt < kUprightTrunk &&
+                            figure.prior >= 0.0F && !hasTail(*framed.rig);
+    const bool told = (figure.legs.told && figure.arms.told && toldTrunk) || toldBlocks;
     const float helpShape =
         std::clamp(0.2F * names, -6.0F, 4.0F) + (blocks ? kBlocksShape : 0.0F) + (told ? kToldShape : 0.0F);
     const float helpWhole =

@@ -114,7 +114,24 @@ class Imaginer {
             if (name.parts[Part::trunk] < kTellsTrunkEnd || rig_.names[root].parts[Part::hips] <= 0.0F) continue;
             if (!rig_.skinned || rig_.directWeight[root] > 0.0F) return root;
         }
-        return crossed_ != kNoJoint ? bodyOfCrossedArms() : kNoJoint;
+        return crossed_ != kNoJoint ? bodyOfCrossedArms() : lowestOfSpine();
+    }
+
+    // Where the spine is numbered from the hips on, as Blender's metarig has it: the one that all the others hang on.
+    [[nodiscard]] int lowestOfSpine() const {
+        constexpr int kFewest = 3;
+        std::vector<int> spine;
+        for (int joint = 0; joint < rig_.count(); ++joint) {
+            const NameEvidence& name = rig_.names[joint];
+            const bool said = name.side == Side::center && !name.helper && name.parts[Part::trunk] >= kTellsTrunkEnd;
+            if (said && rig_.carriesSkin(joint)) spine.push_back(joint);
+        }
+        if (static_cast<int>(spine.size()) < kFewest) return kNoJoint;
+        const int lowest = spine.front();
+        const bool isOne = std::all_of(spine.begin(), spine.end(), [&](int joint) {
+            return rig_.isAncestorOrSelf(lowest, joint) && rig_.names[joint].words == rig_.names[lowest].words;
+        });
+        return isOne && (!rig_.skinned || rig_.directWeight[lowest] > 0.0F) ? lowest : kNoJoint;
     }
 
     // The one joint that carries arms that are crossed and both legs.

@@ -58,12 +58,13 @@ float TrunkMeasures::ownSkin(int joint) const {
 }
 
 bool TrunkMeasures::isTrunkBlock(int joint) const {
-    constexpr float kBeyond = 0.25F;  // of the trunk
+    constexpr float kBelow = 0.25F;  // of the trunk
+    constexpr float kAbove = 1.0F;   // … above the middle of arms that hang down
     if (rig_.skinned || !rig_.rigidPart[joint] || !isCentral(joint) || rig_.names[joint].helper) return false;
     const PartScores& parts = rig_.names[joint].parts;
     const float height = (position(joint).y - legs_.root.y) / length_;
-    return std::max({parts[Part::hips], parts[Part::trunk], parts[Part::chest]}) > 0.0F && height > -kBeyond &&
-           height < 1.0F + kBeyond;
+    return std::max({parts[Part::hips], parts[Part::trunk], parts[Part::chest]}) > 0.0F && height > -kBelow &&
+           height < 1.0F + kAbove;
 }
 
 bool TrunkMeasures::isFileRoot(int joint) const {
