@@ -71,6 +71,7 @@ class TrunkFinder : private TrunkMeasures {
     std::vector<int> spine(const TrunkCandidate& trunk) const {
         std::vector<int> joints;
         const float low = std::max(position(trunk.hips).y, legs_.root.y) + 0.03F * length_;
+        const float high = std::max(arms_.root.y + 0.1F * length_, position(trunk.chest).y);
         for (int joint = rig_.parents[trunk.chest]; joint != kNoJoint && joint != trunk.hips;
              joint = rig_.parents[joint]) {
             if (rig_.isAncestorOrSelf(joint, trunk.hips)) break;  // of the whole body
@@ -79,8 +80,8 @@ class TrunkFinder : private TrunkMeasures {
             const float least = beside ? low - 0.06F * length_ : low;
             const NameEvidence& name = rig_.names[joint];
             const bool told = isTold() && name.parts[Part::trunk] >= kNamedTrunk && !isInPlaceOf(joint, trunk.hips);
-            const bool between = told || (position(joint).y > std::min(least, position(trunk.chest).y) &&
-                                          position(joint).y < arms_.root.y + 0.1F * length_);
+            const bool between =
+                told || (position(joint).y > std::min(least, position(trunk.chest).y) && position(joint).y < high);
             const bool otherPart = name.meaningful && name.parts[Part::trunk] < 0.0F && name.parts[Part::chest] < 0.0F;
             if (isCentral(joint) && between && !name.helper && !otherPart) joints.push_back(joint);
         }
@@ -273,7 +274,7 @@ class TrunkFinder : private TrunkMeasures {
                 near(below, 0.2F, 0.2F * slack_, 5.0F) + atMost(-below, 0.08F, 0.05F * slack_ * slack_, 3.0F);
             // Squat figures' arms start below the joint that they hang from; its name tells.
             const bool told = chest == armParent_ && named >= kNamedChest;
-            score += told || isToldChest(chest) ? std::max(height, kNamedPose) : height;
+            score += told || heavy || isToldChest(chest) ? std::max(height, kNamedPose) : height;
         }
         // Hips that are named so and carry the legs may hang beside the spine, on a joint of the whole body.
         const bool beside = (trunk.hips == legParent_ && name(trunk.hips, Part::hips) >= kNamedHips) ||

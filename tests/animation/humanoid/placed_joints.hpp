@@ -8,6 +8,11 @@
 
 namespace lutka::test {
 
+/// That place on the left, which is side 0, or its mirror image.
+inline vec3 onSide(const vec3& place, int side) {
+    return side == 0 ? place : place * vec3(-1, 1, 1);
+}
+
 /// A skeleton of joints that a test places one by one.
 struct PlacedJoints {
     std::vector<JointSpec> joints;
