@@ -48,8 +48,8 @@ class SceneReader {
         readNodes();
         readMeshes();
         scene_.clips = sampleMotions(motions, tree_, layout_, frameRateOf(objects_.settings()), scene_.warnings);
-        if (movesBlendShapes(document_, objects_))
-            scene_.warnings.emplace_back("animations of blend shapes were left out");
+        movesBlendShapes_ = movesBlendShapes(document_, objects_);
+        if (movesBlendShapes_) scene_.warnings.emplace_back("animations of blend shapes were left out");
         tellUnread();
         return std::nullopt;
     }
@@ -57,15 +57,29 @@ class SceneReader {
     SourceScene take() { return std::move(scene_); }
 
   private:
+    [[nodiscard]] bool hangsOnModel(const Object& object) const {
+        const auto index = static_cast<int>(&object - objects_.all().data());
+        const auto parents = objects_.parentsOf(index);
+        return std::any_of(parents.begin(), parents.end(), [&](const Connection& link) {
+            return link.parent != Objects::kRoot && objects_[link.parent].kind == "Model";
+        });
+    }
+
     // Surfaces and deformers that have no triangles and joints.
     void tellUnread() {
         std::set<std::string> unread;
+        const bool plays = std::any_of(scene_.clips.begin(), scene_.clips.end(),
+                                       [](const SourceClip& clip) { return !clip.channels.empty(); });
         for (const Object& object : objects_.all()) {
             const std::string_view kind = object.subKind;
             const bool curved =
                 kind == "NurbsSurface" || kind == "TrimNurbsSurface" || kind == "Nurb" || kind == "Patch";
             if (curved && object.kind == "Geometry") unread.insert("curved surfaces (NURBS and patches)");
             if (kind == "VertexCacheDeformer") unread.insert("deformation by vertex caches");
+            const bool isMesh = object.kind == "Geometry" && kind == "Mesh";
+            if (isMesh && !hangsOnModel(object)) unread.insert("meshes that are connected to no node");
+            if (object.kind == "AnimationCurve" && !plays && !movesBlendShapes_)
+                unread.insert("animations, for none of them moves a node in a stack and layer");
         }
         if (!unread.empty()) scene_.warnings.push_back(fmt::format("left out: {}", fmt::join(unread, "; ")));
     }
@@ -225,6 +239,7 @@ class SceneReader {
     MaterialReader materials_;
     ModelTree tree_;
     SceneLayout layout_;
+    bool movesBlendShapes_ = false;
     std::vector<int> modelOfNode_;  // -1: none
     SourceScene scene_;
     std::vector<dmat4> sceneFromNode_;

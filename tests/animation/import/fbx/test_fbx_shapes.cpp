@@ -228,7 +228,7 @@ TEST_CASE("nodes of another unit than the bind pose are brought to its size, wha
     }
 }
 
-TEST_CASE("curved surfaces and vertex caches of an FBX are told") {
+TEST_CASE("what of an FBX has no triangles, hangs on nothing or moves nothing is told") {
     const auto told = [](const FbxRecord& object) {
         const SourceScene scene =
             readAll(document({model(1, "Face", {}), square({}), object}, {fbxLink(1, 0), fbxLink(3, 1)}));
@@ -242,4 +242,8 @@ TEST_CASE("curved surfaces and vertex caches of an FBX are told") {
           "left out: curved surfaces (NURBS and patches)");
     CHECK(told({"Deformer", {std::int64_t{40}, std::string("Deformer::"), std::string("VertexCacheDeformer")}, {}}) ==
           "left out: deformation by vertex caches");
+    CHECK(told({"Geometry", {std::int64_t{40}, std::string("Geometry::"), std::string("Mesh")}, {}}) ==
+          "left out: meshes that are connected to no node");
+    CHECK(told({"AnimationCurve", {std::int64_t{40}, std::string("AnimCurve::"), std::string()}, {}}) ==
+          "left out: animations, for none of them moves a node in a stack and layer");
 }
