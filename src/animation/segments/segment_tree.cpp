@@ -48,7 +48,9 @@ int rootJoint(const RigFeatures& rig) {
             if (heaviest == kNoJoint || rig.subtreeWeight[child] > rig.subtreeWeight[heaviest]) heaviest = child;
         }
         if (heaviest == kNoJoint) return root;
-        if (branches < 2 && (rig.directWeight[root] > 0.0F || rig.subtreeWeight[heaviest] < kMostOfSkin)) return root;
+        const bool above = rig.directWeight[root] <= 0.0F && rig.directWeight[heaviest] >= kLeastSegmentSkin &&
+                           rig.subtreeWeight[heaviest] >= kMostOfSkin;
+        if (branches < 2 && !above) return root;
         const bool hub = rig.directWeight[root] < kLeastHubSkin || rig.subtreeWeight[heaviest] >= kMostOfSkin;
         if (!hub) return root;
         root = heaviest;

@@ -231,14 +231,15 @@ vec3 BodyFit::inMirrorPlane(const vec3& direction) {
     return glm::length(flat) > 1e-3F ? glm::normalize(flat) : vec3(0, 0, 1);
 }
 
-// Standing or lying across: whichever lies nearer to the skin; or ahead, where that is clearly nearer: a head with a
-// beak or a snout.
+// Standing or lying across: whichever lies nearer to the skin. A head also ahead, where that is clearly nearer: one
+// with a beak or a snout.
 Capsule BodyFit::fitStandingOrLying() const {
     const std::array<vec3, 3> directions{rotation_ * vec3(0, 1, 0), rotation_ * vec3(1, 0, 0),
                                          rotation_ * vec3(0, 0, 1)};
     Capsule best;
     float least = 0.0F;
-    for (std::size_t i = 0; i < directions.size(); ++i) {
+    const std::size_t tried = body_.role == Role::head ? 3 : 2;
+    for (std::size_t i = 0; i < tried; ++i) {
         const vec3 origin(plan_.middleX, body_.start.y, body_.start.z);
         const CapsuleSearch search = searchAlong(origin, axesAlong(directions[i]));
         const Capsule capsule = fitFree(search);

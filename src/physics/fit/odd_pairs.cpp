@@ -45,11 +45,16 @@ bool reachesBeyond(const Aabb& outer, const Aabb& inner, float heightM) {
     return out <= 0.5F * kBeyond * heightM && further > kBeyond * heightM;
 }
 
+bool isOfArm(Role role) {
+    return isEitherSide(role, Role::leftUpperArm) || isEitherSide(role, Role::leftLowerArm) ||
+           isEitherSide(role, Role::leftHand);
+}
+
 }  // namespace
 
 void findOddPairs(BodyPlan& plan) {
     for (PlannedBody& left : plan.bodies) {
-        if (left.side != animation::Side::left || left.mirror < 0) continue;
+        if (!left.role || left.side != animation::Side::left || left.mirror < 0) continue;
         PlannedBody& right = plan.bodies[left.mirror];
         const std::vector<SkinPoint> leftSkin = skinNearSegment(plan, left);
         const std::vector<SkinPoint> rightSkin = skinNearSegment(plan, right);
@@ -57,7 +62,7 @@ void findOddPairs(BodyPlan& plan) {
         const Aabb leftBox = boxOf(leftSkin);
         const Aabb rightBox = mirrored(plan, boxOf(rightSkin), right, left);
         left.posedApart = right.posedApart = arePosedApart(leftBox, rightBox, plan.heightM);
-        if (left.posedApart || left.endsAtJoint || right.endsAtJoint) continue;
+        if (left.posedApart || left.endsAtJoint || right.endsAtJoint || !isOfArm(*left.role)) continue;
         left.holds = reachesBeyond(leftBox, rightBox, plan.heightM);
         right.holds = !left.holds && reachesBeyond(rightBox, leftBox, plan.heightM);
         PlannedBody& holding = left.holds ? left : right;
