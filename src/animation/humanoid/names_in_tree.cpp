@@ -168,7 +168,10 @@ void readNamesInChains(RigFeatures& rig) {
 // In a flattened rig no joint hangs on the shoulder: beside a joint that is called arm it is the clavicle. The arm
 // hangs where the shoulder does, or on a root or a control, but never on a shoulder: else the one beside it is a pad.
 void readFlatShoulders(RigFeatures& rig) {
-    const auto isShoulder = [&](int joint) { return rig.names[joint].parts[Part::clavicle] >= kMaybe; };
+    // Also one of which its place has told that it is the upper arm (readShouldersAsArms()).
+    const auto isShoulder = [&](int joint) {
+        return rig.names[joint].parts[Part::clavicle] >= kMaybe || saysConcept(rig.names[joint], Concept::shoulder);
+    };
     std::vector<int> arms;
     for (int joint = 0; joint < rig.count(); ++joint) {
         const NameEvidence& name = rig.names[joint];

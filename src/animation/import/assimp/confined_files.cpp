@@ -67,13 +67,12 @@ ConfinedFiles::ConfinedFiles(fs::path model, ModelFolder folder, std::shared_ptr
 bool ConfinedFiles::mayOpen(const std::string& file) const {
     if (model_ == file) return true;
     std::error_code failed;
-    const bool exists = fs::exists(file, failed);
-    if (!exists) leftOut_->absent.insert(file);
+    if (!fs::exists(file, failed)) leftOut_->absent.insert(file);
     if (!folder_.admits(file)) {
         // Readers ask by a bare name, too, before they put the folder before it.
         const fs::path name = fs::path(file).lexically_normal();
         const bool isBare = name.is_relative() && *name.begin() != ".." && file.rfind(folder_.path().string(), 0) != 0;
-        if (exists && !isBare) leftOut_->outside.insert(file);
+        if (!isBare) leftOut_->outside.insert(file);
         return false;
     }
     return fs::is_regular_file(file, failed) && fs::file_size(file, failed) <= kMaxFileBytes && !failed;
