@@ -27,6 +27,14 @@ float reachFrom(const physics::RagdollProfile& profile, const physics::Rig& rig,
 
 }  // namespace
 
+vec3 bodyFromHold(const physics::RagdollProfile& profile, const physics::Rig& rig, int body) {
+    const physics::BodyShape& shape = profile.bodies[body].shape;
+    if (shape.kind != physics::BodyShape::Kind::capsule) return vec3(0);
+    const vec3 up(0, shape.halfLength, 0);
+    const vec3& joint = rig.bodyFromJoint[body].translation;
+    return glm::distance(up, joint) > glm::distance(-up, joint) ? up : -up;
+}
+
 FigureBounds figureBounds(const physics::RagdollProfile& profile, const physics::Rig& rig) {
     FigureBounds bounds{vec3(1e9F), vec3(-1e9F)};
     const auto standardFrom = [&](std::size_t body) {
@@ -57,8 +65,9 @@ FigureBounds figureBounds(const physics::RagdollProfile& profile, const physics:
         const int hand = physics::bodyOf(profile, role);
         if (hand < 0) continue;
         bounds.handBody = profile.bodies[static_cast<std::size_t>(hand)].name;
-        bounds.hand = bounds.bodies[static_cast<std::size_t>(hand)].standardFromBody.translation;
-        bounds.handReach = reachFrom(profile, rig, hand, rig.bindModelFromBody[hand].translation, -1);
+        const vec3 hold = bodyFromHold(profile, rig, hand);
+        bounds.hand = bounds.bodies[static_cast<std::size_t>(hand)].standardFromBody * hold;
+        bounds.handReach = reachFrom(profile, rig, hand, rig.bindModelFromBody[hand] * hold, -1);
         break;
     }
     return bounds;

@@ -21,9 +21,11 @@ struct FigureBounds {
                           ///< tilted figure dips.
     std::vector<FigureBody> bodies{};  ///< What it is made of; none: not known.
     std::string handBody{};            ///< Its left hand, or the last body of that arm; empty: it has none.
-    vec3 hand{0, 0, 0};                ///< The middle of that in the standard stance.
+    vec3 hand{0, 0, 0};                ///< Where that is held (bodyFromHold()), in the standard stance.
     float handReach = 0.0F;            ///< Metres from there that it reaches at most, however its joints are stretched.
 };
+/// Where a limb's body is held, in its own frame: its far end, or its middle where it has none.
+[[nodiscard]] vec3 bodyFromHold(const physics::RagdollProfile& profile, const physics::Rig& rig, int body);
 /// Over the surfaces of all bodies in the bind pose.
 [[nodiscard]] FigureBounds figureBounds(const physics::RagdollProfile& profile, const physics::Rig& rig);
 

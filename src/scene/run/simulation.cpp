@@ -48,14 +48,6 @@ void place(const physics::RagdollProfile& profile, const Placement& placement, s
     }
 }
 
-// The far end of a limb's body: where a hand is held.
-vec3 tipOf(const physics::BodyProfile& body, const RigidTransform& worldFromBody, const vec3& worldJoint) {
-    if (body.shape.kind != physics::BodyShape::Kind::capsule) return worldFromBody.translation;
-    const vec3 up = worldFromBody * vec3(0, body.shape.halfLength, 0);
-    const vec3 down = worldFromBody * vec3(0, -body.shape.halfLength, 0);
-    return glm::distance(up, worldJoint) > glm::distance(down, worldJoint) ? up : down;
-}
-
 // Strong enough to hold several figures' weight: a pin is a part of the scene, not a user's pull.
 constexpr float kPinForceN = 5000.0F;
 
@@ -208,10 +200,9 @@ void Simulation::addPins() {
         const int body = physics::bodyNamed(asset.profile, pin.body);
         if (body < 0) continue;  // a figure without hands falls
         placeAtStart(pin.doll);
-        const RigidTransform& worldFromBody = scratch_[body].worldFromBody;
-        const vec3 joint = worldFromBody * asset.rig.bodyFromJoint[body].translation;
-        const vec3 tip = tipOf(asset.profile.bodies[body], worldFromBody, joint);
-        world_->addDrag({dollIds_[pin.doll], body, inverse(worldFromBody) * tip, tip, kPinForceN});
+        const vec3 hold = bodyFromHold(asset.profile, asset.rig, body);
+        const vec3 held = scratch_[body].worldFromBody * hold;
+        world_->addDrag({dollIds_[pin.doll], body, hold, held, kPinForceN});
     }
 }
 

@@ -7,6 +7,7 @@
 
 #include "animation/pose.hpp"
 #include "physics/collision/shape.hpp"
+#include "scene/asset/body_bounds.hpp"
 #include "scene/asset/figure_bounds.hpp"
 #include "scene/run/bake.hpp"
 #include "support/catch.hpp"
@@ -27,6 +28,38 @@ std::unique_ptr<Simulation> start(const RagdollAsset& asset, std::string_view na
     auto simulation = Simulation::create(asset, std::move(scenario).value(), options);
     REQUIRE(simulation);
     return std::move(simulation).value();
+}
+
+// A figure whose arms end in forearms as long as its thighs and shins together.
+std::unique_ptr<RagdollAsset> withLongForearms() {
+    std::vector<test::JointSpec> joints{{"hips", -1, {0, 0.95F, 0}},
+                                        {"spine", 0, {0, 1.05F, 0}},
+                                        {"chest", 1, {0, 1.20F, 0}},
+                                        {"neck", 2, {0, 1.48F, 0}},
+                                        {"head", 3, {0, 1.56F, 0}}};
+    std::vector<test::TubeSpec> tubes{{0, {0, 0.85F, 0}, 0.15F},
+                                      {1, {0, 1.20F, 0}, 0.13F},
+                                      {2, {0, 1.45F, 0}, 0.15F},
+                                      {3, {0, 1.56F, 0}, 0.06F},
+                                      {4, {0, 1.75F, 0}, 0.09F}};
+    for (const float side : {1.0F, -1.0F}) {
+        const std::string name = side > 0 ? "left" : "right";
+        const auto add = [&](const char* role, int parent, const vec3& at, const vec3& end, float radius) {
+            const vec3 across(side, 1, 1);
+            joints.push_back({name + role, parent, across * at});
+            tubes.push_back({static_cast<int>(joints.size()) - 1, across * end, radius});
+            return static_cast<int>(joints.size()) - 1;
+        };
+        const int upperArm = add("UpperArm", 2, {0.18F, 1.42F, 0}, {0.46F, 1.42F, 0}, 0.05F);
+        add("LowerArm", upperArm, {0.46F, 1.42F, 0}, {1.26F, 1.42F, 0}, 0.04F);
+        const int thigh = add("UpperLeg", 0, {0.10F, 0.90F, 0}, {0.10F, 0.50F, 0}, 0.08F);
+        const int shin = add("LowerLeg", thigh, {0.10F, 0.50F, 0}, {0.10F, 0.09F, 0}, 0.055F);
+        add("Foot", shin, {0.10F, 0.09F, 0}, {0.10F, 0.03F, 0.18F}, 0.04F);
+    }
+    auto asset = makeRagdoll(test::makeFigure("long forearms", joints, tubes));
+    if (!asset) FAIL(asset.error().text());
+    REQUIRE(physics::bodyOf(asset.value()->profile, physics::Role::leftHand) < 0);
+    return std::move(asset).value();
 }
 
 // A clip of the biped: everything turns about Y at `speed` rad/s and moves along X at 2 m/s.
@@ -198,39 +231,6 @@ TEST_CASE("what can't be simulated is refused with all that is wrong with it, an
               [](Run& run) {
                   run.scenario.pins.push_back({7, "head"});
               }},
-    };
-    const auto asset = test::bipedRagdoll();
-    for (const Fault& fault : faults) {
-        INFO(fault.told);
-        Run run{makeScenario({.name = "drop"}, *asset).value(), {}};
-        fault.make(run);
-        const auto refused = Simulation::create(*asset, std::move(run.scenario), run.options);
-        REQUIRE_FALSE(refused);
-        CHECK(refused.error().code == ErrorCode::usage);
-        CHECK(refused.error().message.find(fault.told) != std::string::npos);
-        CHECK(refused.error().message.find(';') == std::string::npos);  // nothing else
-    }
-    Scenario scenario = makeScenario({.name = "drop"}, *asset).value();
-    const std::vector<const RagdollAsset*> assets{asset.get(), nullptr};
-    scenario.dolls[0].asset = 5;
-    const auto refused = Simulation::create(assets, std::move(scenario), {});
-    REQUIRE_FALSE(refused);
-    CHECK(refused.error().message == "asset 1 is null; doll 0 is of asset 5 of 2");
-    CHECK(Simulation::create(std::vector<const RagdollAsset*>{}, {}, {}).error().message == "there is no asset");
-}
-
-TEST_CASE("a clip whose name ends in a number after @ is found by its whole name") {
-    animation::Character character = test::makeBiped();
-    addTurningClip(character, 1.0F);
-    character.clips.front().name = "a@b@1";
-    const auto asset = makeRagdoll(std::move(character));
-    REQUIRE(asset);
-    const auto startsAt = [&](const ClipStart& clip) {
-        SimulationOptions options;
-        options.fromClip = clip;
-        auto scenario = makeScenario({.name = "drop"}, Figure{{vec3(-1), vec3(1)}});
-        REQUIRE(scenario);
-        return Simulation::create(*asset.value(), std::move(scenario).value(), options).ok();
         Fault{"-3 threads", [](Run& run) { run.options.world.threads = -3; }},
         Fault{"static shape 0 stands nowhere",
               [](Run& run) { run.scenario.statics[0].worldFromShape.translation.y = kNan; }},
@@ -269,6 +269,54 @@ TEST_CASE("a clip whose name ends in a number after @ is found by its whole name
                   run.options.puppet.emplace().hits.push_back({"chest", -1.0F, vec3(1), 0});
               }},
     };
+    const auto asset = test::bipedRagdoll();
+    for (const Fault& fault : faults) {
+        INFO(fault.told);
+        Run run{makeScenario({.name = "drop"}, *asset).value(), {}};
+        fault.make(run);
+        const auto refused = Simulation::create(*asset, std::move(run.scenario), run.options);
+        REQUIRE_FALSE(refused);
+        CHECK(refused.error().code == ErrorCode::usage);
+        CHECK(refused.error().message.find(fault.told) != std::string::npos);
+        CHECK(refused.error().message.find(';') == std::string::npos);  // nothing else
+    }
+    Scenario scenario = makeScenario({.name = "drop"}, *asset).value();
+    const std::vector<const RagdollAsset*> assets{asset.get(), nullptr};
+    scenario.dolls[0].asset = 5;
+    const auto refused = Simulation::create(assets, std::move(scenario), {});
+    REQUIRE_FALSE(refused);
+    CHECK(refused.error().message == "asset 1 is null; doll 0 is of asset 5 of 2");
+    CHECK(Simulation::create(std::vector<const RagdollAsset*>{}, {}, {}).error().message == "there is no asset");
+}
+
+TEST_CASE("all of the damping that the settings allow is taken, and no more") {
+    const auto asset = test::bipedRagdoll();
+    SimulationOptions options;
+    options.world.linearDamping = 0.9995F;
+    options.world.angularDamping = 0.9995F;
+    const auto simulation = start(*asset, "drop", options);
+    for (int step = 0; step < 30; ++step)
+        simulation->step();
+    CHECK(simulation->quality().nonFinite == 0);
+    options.world.linearDamping = 1.0F;
+    const auto refused = Simulation::create(*asset, makeScenario({.name = "drop"}, *asset).value(), options);
+    REQUIRE_FALSE(refused);
+    CHECK(refused.error().message == "linear damping is 1, not in [0, 1)");
+}
+
+TEST_CASE("a clip whose name ends in a number after @ is found by its whole name") {
+    animation::Character character = test::makeBiped();
+    addTurningClip(character, 1.0F);
+    character.clips.front().name = "a@b@1";
+    const auto asset = makeRagdoll(std::move(character));
+    REQUIRE(asset);
+    const auto startsAt = [&](const ClipStart& clip) {
+        SimulationOptions options;
+        options.fromClip = clip;
+        auto scenario = makeScenario({.name = "drop"}, Figure{{vec3(-1), vec3(1)}});
+        REQUIRE(scenario);
+        return Simulation::create(*asset.value(), std::move(scenario).value(), options).ok();
+    };
     CHECK(startsAt({"a@b", 1.0F}));  // as a command line reads it
     CHECK(startsAt({"a@b@1", 0.0F}));
     CHECK_FALSE(startsAt({"a@b", 0.5F}));
@@ -289,21 +337,6 @@ TEST_CASE("drawing between two steps is between their states") {
 TEST_CASE("a baked clip shows the poses that the simulation had") {
     const auto asset = test::bipedRagdoll();
     const auto simulation = start(*asset, "drop");
-TEST_CASE("all of the damping that the settings allow is taken, and no more") {
-    const auto asset = test::bipedRagdoll();
-    SimulationOptions options;
-    options.world.linearDamping = 0.9995F;
-    options.world.angularDamping = 0.9995F;
-    const auto simulation = start(*asset, "drop", options);
-    for (int step = 0; step < 30; ++step)
-        simulation->step();
-    CHECK(simulation->quality().nonFinite == 0);
-    options.world.linearDamping = 1.0F;
-    const auto refused = Simulation::create(*asset, makeScenario({.name = "drop"}, *asset).value(), options);
-    REQUIRE_FALSE(refused);
-    CHECK(refused.error().message == "linear damping is 1, not in [0, 1)");
-}
-
     ClipBaker baker(0, 60.0F, "fall");
     baker.sample(*simulation);
     for (int step = 0; step < 30; ++step) {
@@ -336,27 +369,31 @@ TEST_CASE("a doll that hangs by its hand stays up") {
     CHECK(simulation->worldFromBody(0)[foot].translation.y > 0.2F);
 }
 
-// By a hand that is low beside the hips a figure hangs by a whole height more than it stands.
-TEST_CASE("a figure that stands with its arms down hangs clear of the floor") {
-    const auto asset = scene::loadRagdoll(LUTKA_ASSETS_DIR "/models/mannequin.glb");
-    REQUIRE(asset);
-    const scene::FigureBounds bounds = scene::figureBounds(asset.value()->profile, asset.value()->rig);
+// By a hand that is low beside the hips a figure hangs by a whole height more than it stands; and by half a body more
+// where its arm ends in a long forearm, which is held by the tip.
+TEST_CASE("a figure hangs clear of the floor, by hands that are low and by the tips of long forearms") {
+    std::vector<std::unique_ptr<RagdollAsset>> assets;
+    auto mannequin = scene::loadRagdoll(LUTKA_ASSETS_DIR "/models/mannequin.glb");
+    REQUIRE(mannequin);
+    const scene::FigureBounds bounds = scene::figureBounds(mannequin.value()->profile, mannequin.value()->rig);
     CHECK(bounds.handReach > bounds.high.y - bounds.low.y);
-    for (const std::uint64_t seed : {0, 3}) {
-        auto scenario = scene::makeScenario({.name = "hang", .seed = seed}, *asset.value());
-        REQUIRE(scenario);
-        const auto simulation = scene::Simulation::create(*asset.value(), std::move(scenario).value(), {});
-        REQUIRE(simulation);
-        float lowest = 1e9F;
-        for (int step = 0; step < 480; ++step) {
-            simulation.value()->step();
-            const auto frames = simulation.value()->worldFromBody(0);
-            for (std::size_t body = 0; body < frames.size(); ++body) {
-                const physics::BodyShape& shape = asset.value()->profile.bodies[body].shape;
-                lowest = std::min(lowest, frames[body].translation.y - physics::boundingRadius(shape));
+    assets.push_back(std::move(mannequin).value());
+    assets.push_back(withLongForearms());
+    for (const auto& asset : assets) {
+        for (const std::uint64_t seed : {0, 3}) {
+            const auto simulation = start(*asset, "hang", {}, 1, seed);
+            float lowest = 1e9F;
+            for (int step = 0; step < 480; ++step) {
+                simulation->step();
+                const auto frames = simulation->worldFromBody(0);
+                for (std::size_t body = 0; body < frames.size(); ++body) {
+                    const vec3 half = halfAabbOf(asset->profile.bodies[body].shape, frames[body].rotation);
+                    lowest = std::min(lowest, frames[body].translation.y - half.y);
+                }
             }
+            CAPTURE(asset->character.name, seed, lowest);
+            CHECK(lowest > 0.0F);
+            CHECK(lowest < 1.0F);
         }
-        CAPTURE(seed, lowest);
-        CHECK(lowest > 0.0F);
     }
 }
