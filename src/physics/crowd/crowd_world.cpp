@@ -47,6 +47,7 @@ class CrowdWorld final : public World {
         : state_(settings, tuning), ownSubsteps_(tuning.substeps) {}
 
     [[nodiscard]] int substepsPerStep() const override { return state_.tuning.substeps; }
+    [[nodiscard]] int usualSubsteps(float dt) const override { return substepsFor(state_, dt).usual; }
     [[nodiscard]] double dragWork() const override { return state_.dragWork; }
     [[nodiscard]] double dragImpulse() const override { return state_.dragImpulse; }
     [[nodiscard]] double motorWork() const override { return state_.motorWork; }
@@ -111,8 +112,8 @@ class CrowdWorld final : public World {
 
     CrowdState state_;
     int ownSubsteps_;  // of figures that are not small
-    StepTimes times_;
     bool areSubstepsSet_ = false;
+    StepTimes times_;
 };
 
 void CrowdWorld::wakeAll() {

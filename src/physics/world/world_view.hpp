@@ -97,6 +97,8 @@ class WorldView {
                                                 std::uint32_t layers = CollisionFilter::kAll) const;
 
     [[nodiscard]] virtual int substepsPerStep() const = 0;
+    /// How many a step of `dt` seconds usually has: substepsPerStep() unless the solver takes more in a longer one.
+    [[nodiscard]] virtual int usualSubsteps(float /*dt*/) const { return substepsPerStep(); }
     /// Work done by drags since the world was made, joules.
     [[nodiscard]] virtual double dragWork() const { return 0.0; }
     /// What drags have given their bodies since the world was made, N s: of each body the length of the sum of its

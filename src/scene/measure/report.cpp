@@ -96,7 +96,7 @@ std::string reportJson(const Simulation& simulation) {
     json["count"] = simulation.dollCount();
     json["seconds"] = simulation.seconds();
     json["dt"] = options.dt;
-    json["substeps"] = simulation.world().substepsPerStep();
+    json["substeps"] = simulation.world().usualSubsteps(options.dt);
     json["threads"] = options.world.threads;
     json["steps"] = simulation.steps();
     json["stateHash"] = fmt::format("{:016x}", simulation.stateHash());

@@ -47,6 +47,25 @@ TEST_CASE("the report is one JSON document with every key of the contract") {
     CHECK(json["stateHash"].get<std::string>().size() == 16);
 }
 
+TEST_CASE("the report tells the substeps that steps of its length have") {
+    const auto asset = test::bipedRagdoll();
+    const auto substepsOf = [&](float dt, std::optional<int> told) {
+        SimulationOptions options;
+        options.dt = dt;
+        options.world.substeps = told;
+        auto scenario = makeScenario({.name = "drop"}, *asset);
+        REQUIRE(scenario);
+        const auto simulation = Simulation::create(*asset, std::move(scenario).value(), options);
+        REQUIRE(simulation);
+        simulation.value()->step();
+        return nlohmann::json::parse(reportJson(*simulation.value()))["substeps"].get<int>();
+    };
+    CHECK(substepsOf(1.0F / 60.0F, {}) == 6);
+    CHECK(substepsOf(0.05F, {}) == 18);
+    CHECK(substepsOf(1.0F / 240.0F, {}) == 2);
+    CHECK(substepsOf(0.05F, 4) == 4);
+}
+
 TEST_CASE("the text's figures have their points below each other, also that of a doll that is not at rest") {
     const auto asset = test::bipedRagdoll();
     auto scenario = makeScenario({.name = "drop", .count = 1}, *asset);
