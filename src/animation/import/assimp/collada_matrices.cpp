@@ -139,6 +139,7 @@ std::vector<AnimatedMatrix> groupsOf(const ColladaDocument& document,
         group.elements.push_back(element);
     }
     std::vector<AnimatedMatrix> out;
+    out.reserve(groups.size());
     for (auto& [key, group] : groups)
         out.push_back(std::move(group));
     return out;

@@ -139,7 +139,7 @@ std::optional<std::size_t> ColladaNodes::withName(std::string_view name) const {
     return name.empty() || found == byName_.end() ? std::nullopt : std::optional(found->second.front());
 }
 
-SettledCollada settledCollada(std::string text) {
+SettledCollada settledCollada(const std::string& text) {
     SettledCollada out;
     const ColladaDocument document(text);
     const ColladaNodes nodes(document.tags);

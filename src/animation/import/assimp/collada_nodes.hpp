@@ -65,6 +65,6 @@ struct SettledCollada {
 /// whose targets it does not understand in silence. Each node has an id, each skin names its joints by them and has a
 /// copy for each skeleton that it is shown with, and the target of each channel is an id and a sid, with a member where
 /// it has one. What channels can't reach is told.
-[[nodiscard]] SettledCollada settledCollada(std::string text);
+[[nodiscard]] SettledCollada settledCollada(const std::string& text);
 
 }  // namespace lutka::animation::rig_import

@@ -105,11 +105,10 @@ class OtherTargets {
         const auto element = ids_.find(target.substr(0, target.find_first_of("/(")));
         const std::string_view rest = target.substr(std::min(target.rfind('/'), target.size()));
         const std::string_view sid = rest.empty() ? rest : rest.substr(1, rest.find_first_of(".(") - 1);
-        if (isTransform)
-            absent_.emplace_back(target);  // but its member
-        else if (element != ids_.end() && element->second)
+        const bool isOther = !isTransform && element != ids_.end();
+        if (isOther && element->second)
             morphs_ = true;
-        else if (element != ids_.end() && (sid.empty() || sids_.count(sid) > 0))
+        else if (isOther && (sid.empty() || sids_.count(sid) > 0))
             others_ = true;
         else
             absent_.emplace_back(target);
