@@ -64,6 +64,7 @@ class PairFinder {
     }
 
     void find() {
+        readNamePartners();
         if (framed_.stance.byNames) pairByNames();
         pairByPosition();
         pairByStructure();
@@ -170,8 +171,9 @@ class PairFinder {
         }
     }
 
-    // Joints whose names differ in the side alone, where no other joint has such a name. Legs may be crossed.
-    void pairByNames() {
+    // Joints whose names differ in the side alone, where no other joint has such a name.
+    void readNamePartners() {
+        namePartner_.assign(framed_.positions.size(), kNoJoint);
         std::map<std::pair<std::vector<std::string>, std::vector<int>>, std::array<std::vector<int>, 2>> alike;
         for (int joint = 0; joint < rig_.count(); ++joint) {
             const NameEvidence& name = rig_.names[joint];
@@ -179,8 +181,23 @@ class PairFinder {
             alike[{name.words, name.numbers}][name.side == Side::left ? 0 : 1].push_back(joint);
         }
         for (const auto& [name, sides] : alike) {
-            if (sides[0].size() == 1 && sides[1].size() == 1) addInOrder(sides[0][0], sides[1][0]);
+            if (sides[0].size() != 1 || sides[1].size() != 1) continue;
+            namePartner_[sides[0][0]] = sides[1][0];
+            namePartner_[sides[1][0]] = sides[0][0];
         }
+    }
+
+    // Legs may be crossed.
+    void pairByNames() {
+        for (int joint = 0; joint < rig_.count(); ++joint) {
+            if (namePartner_[joint] != kNoJoint && rig_.names[joint].side == Side::left)
+                addInOrder(joint, namePartner_[joint]);
+        }
+    }
+
+    // Each has a partner by name, and that is another one: a hand that lies where the other side has its twist joint.
+    [[nodiscard]] bool areOthersByName(int a, int b) const {
+        return namePartner_[a] != kNoJoint && namePartner_[b] != kNoJoint && namePartner_[a] != b;
     }
 
     void pairByPosition() {
@@ -193,7 +210,7 @@ class PairFinder {
                 if (error > kMaxError || separation(a, b) < kMinSeparation * framed_.spread) continue;
                 // What starts in the middle goes on to one side each: not a head and what it wears in its place.
                 if (ownSeparation(a, b) < kMinSeparation * framed_.spread && !areOnBothSides(a, b)) continue;
-                if (isTrunkAndCopy(a, b)) continue;
+                if (isTrunkAndCopy(a, b) || areOthersByName(a, b)) continue;
                 const bool above = rig_.isAncestorOrSelf(a, b) || rig_.isAncestorOrSelf(b, a);
                 if (above && nameCost(rig_.names[a], rig_.names[b]) >= 0.0F) continue;
                 const float below = glm::distance(mirrored(centroids_[a]), centroids_[b]) / framed_.spread;
@@ -298,9 +315,10 @@ class PairFinder {
 
     FramedRig& framed_;
     const RigFeatures& rig_;
-    std::vector<vec3> centroids_;  // of what hangs on a joint, with itself; nothing that is held
-    std::vector<float> sizes_;     // in joints, likewise
-    std::vector<float> reaches_;   // of reachOf(); below 0 where it was not asked for yet
+    std::vector<int> namePartner_;  // by joint; kNoJoint: none, or not the only one
+    std::vector<vec3> centroids_;   // of what hangs on a joint, with itself; nothing that is held
+    std::vector<float> sizes_;      // in joints, likewise
+    std::vector<float> reaches_;    // of reachOf(); below 0 where it was not asked for yet
 };
 
 void readSkin(FramedRig& framed) {

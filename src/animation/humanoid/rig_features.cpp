@@ -14,6 +14,7 @@
 
 #include "animation/carrying_joints.hpp"
 #include "animation/counted_vertices.hpp"
+#include "animation/humanoid/name_prefix.hpp"
 #include "animation/humanoid/names_in_tree.hpp"
 #include "animation/humanoid/names_of_trunk.hpp"
 #include "core/aabb.hpp"
@@ -357,8 +358,11 @@ RigFeatures readRig(const Character& character, bool useNames) {
     placeParts(character, rig);
     readVertices(character, rig);
     rig.names.resize(rig.positions.size());
-    if (useNames) std::transform(skeleton.names.begin(), skeleton.names.end(), rig.names.begin(), nameEvidence);
     if (useNames) {
+        const std::string figure = figureName(skeleton.names);
+        std::transform(skeleton.names.begin(), skeleton.names.end(), rig.names.begin(), [&](std::string_view name) {
+            return nameEvidence(name.starts_with(figure) ? name.substr(figure.size()) : name);
+        });
         readDrivingPrefix(skeleton.names, rig);
         readDeformingPrefix(skeleton.names, rig);
     }

@@ -347,4 +347,54 @@ TEST_CASE("a block below a group that is named as a part is that part's mesh", "
     CHECK_FALSE(map[Role::rightToes]);
 }
 
+TEST_CASE("a figure's own name before all names says nothing of a joint", "[words]") {
+    for (const std::string figure : {"LowMan", "Footman_", "HeadHunter", "Lower.Body."}) {
+        INFO(figure);
+        PlacedJoints rig;
+        rig.add("RootNode", -1, {0, 0, 0}, kNone);
+        const int hips = rig.add(figure + "Hips", 0, {0, 0.95F, 0});
+        const int chest = rig.add(figure + "Spine1", rig.add(figure + "Spine", hips, {0, 1.1F, 0}), {0, 1.25F, 0});
+        rig.add(figure + "Head", rig.add(figure + "Neck", chest, {0, 1.45F, 0}), {0, 1.55F, 0});
+        for (const int side : {0, 1}) {
+            const std::string start = figure + (side == 0 ? "Left" : "Right");
+            int joint = rig.add(start + "Shoulder", chest, onSide({0.065F, 1.35F, 0}, side), 30.0F);
+            joint = rig.add(start + "Arm", joint, onSide({0.163F, 1.354F, 0}, side));
+            joint = rig.add(start + "ForeArm", joint, onSide({0.415F, 1.346F, 0}, side));
+            rig.add(start + "Hand", joint, onSide({0.675F, 1.348F, 0.01F}, side));
+            joint = rig.add(start + "UpLeg", hips, onSide({0.1F, 0.9F, 0}, side));
+            joint = rig.add(start + "Leg", joint, onSide({0.1F, 0.5F, 0.01F}, side));
+            joint = rig.add(start + "Foot", joint, onSide({0.1F, 0.08F, 0}, side));
+            rig.add(start + "ToeBase", joint, onSide({0.1F, 0.02F, 0.12F}, side));
+        }
+        const HumanoidMap map = rig.map(true);
+        REQUIRE(map.humanoid);
+        CHECK(rig.nameOf(map, Role::leftShoulder) == figure + "LeftShoulder");
+        CHECK(rig.nameOf(map, Role::leftUpperArm) == figure + "LeftArm");
+        CHECK(rig.nameOf(map, Role::rightLowerArm) == figure + "RightForeArm");
+        CHECK(rig.nameOf(map, Role::rightHand) == figure + "RightHand");
+        CHECK(rig.nameOf(map, Role::rightUpperLeg) == figure + "RightUpLeg");
+        CHECK(rig.nameOf(map, Role::leftFoot) == figure + "LeftFoot");
+        CHECK(rig.nameOf(map, Role::head) == figure + "Head");
+        CHECK(map[Role::head]->reason.find(figure.substr(0, 3)) == std::string::npos);
+    }
+}
+
+TEST_CASE("a hand that a clip has moved away keeps its role where the twist joint lies in its place", "[words]") {
+    PlacedJoints rig;
+    const Trunk trunk = addTrunk(rig);
+    addLegs(rig, trunk.hips);
+    for (const int side : {0, 1}) {
+        const std::string end = side == 0 ? "_l" : "_r";
+        const float wrist = side == 0 ? 0.807F : 1.232F;
+        const int upper = rig.add("upperarm" + end, trunk.chest, onSide({0.191F, 1.39F, 0}, side));
+        const int lower = rig.add("lowerarm" + end, upper, onSide({0.528F, 1.39F, 0}, side));
+        rig.add("hand" + end, lower, onSide({wrist, 1.39F, 0}, side));
+        rig.add("lowerarm_twist_01" + end, lower, onSide({0.528F + 0.5F * (wrist - 0.528F), 1.39F, 0}, side));
+    }
+    const HumanoidMap map = rig.map(false);
+    REQUIRE(map.humanoid);
+    CHECK(rig.nameOf(map, Role::leftHand) == "hand_l");
+    CHECK(rig.nameOf(map, Role::rightHand) == "hand_r");
+}
+
 }  // namespace lutka::test
