@@ -13,10 +13,6 @@ constexpr float kAside = 0.04F;       // of the spread: nearer joints are the tr
 constexpr float kLeastReach = 0.35F;  // of the spread, from a limb's first joint to its farthest
 constexpr std::size_t kMostLoneLimbs = 2;
 
-Side otherSide(Side side) {
-    return side == Side::left ? Side::right : side == Side::right ? Side::left : Side::center;
-}
-
 class Completer {
   public:
     Completer(const RigFeatures& rig, const MirrorPlane& plane) : rig_(rig), plane_(plane) {

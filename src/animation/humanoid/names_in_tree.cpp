@@ -13,6 +13,7 @@
 
 #include "animation/humanoid/name_lexicon.hpp"
 #include "animation/humanoid/names_of_arms.hpp"
+#include "animation/humanoid/names_of_ends.hpp"
 
 namespace lutka::animation {
 namespace {
@@ -28,54 +29,6 @@ constexpr float kSomeLimb = 1.5F;      // the name tells the limb and no part of
 bool saysConcept(const NameEvidence& name, Concept meaning) {
     return std::any_of(name.words.begin(), name.words.end(),
                        [&](const std::string& word) { return conceptOf(word) == meaning; });
-}
-
-// Whether a joint of that side, or one above it, is surely called one of the two parts.
-bool tellsLimb(const RigFeatures& rig, int joint, Side side, Part upper, Part middle) {
-    for (; joint != kNoJoint && rig.names[joint].side == side; joint = rig.parents[joint]) {
-        const PartScores& parts = rig.names[joint].parts;
-        if (parts[upper] >= kSurely || parts[middle] >= kSurely) return true;
-    }
-    return false;
-}
-
-// Bones that are called by the joint at their end: "wrist" at the elbow, "ankle" at the knee. What would be the hand or
-// foot lies about halfway down its limb, and another one hangs on it; so the bones above are shifted, too.
-void readNamesOfEnds(RigFeatures& rig) {
-    constexpr float kHalfway = 0.8F;  // of the way from the joint above
-    struct Limb {
-        Part upper, middle, end;
-    };
-    const auto rename = [&](int joint, Part from, Part to) {
-        rig.names[joint].parts[from] = kSurelyNot;
-        rig.names[joint].parts[to] = kSurely;
-    };
-    for (const Limb& limb :
-         {Limb{Part::upperArm, Part::lowerArm, Part::hand}, Limb{Part::upperLeg, Part::lowerLeg, Part::foot}}) {
-        for (int joint = 0; joint < rig.count(); ++joint) {
-            const int parent = rig.parents[joint];
-            if (parent == kNoJoint || rig.names[joint].parts[limb.end] < kSurely) continue;
-            const Side side = rig.names[joint].side;
-            if (rig.names[parent].side != side) continue;
-            const PartScores& above = rig.names[parent].parts;
-            const bool middleAbove = above[limb.middle] >= kSurely;
-            if (!middleAbove && above[limb.upper] < kMaybe) continue;
-            const int top = rig.parents[parent];
-            // All parts have their names already: a wrist in the middle of the forearm only turns with it.
-            if (middleAbove && tellsLimb(rig, top, side, limb.upper, limb.middle)) continue;
-            const float least = kHalfway * glm::distance(rig.positions[parent], rig.positions[joint]);
-            const auto goesOn = [&](int child) {
-                return rig.names[child].parts[limb.end] >= kSurely && rig.names[child].side == side &&
-                       rig.carriesSkin(child) && glm::distance(rig.positions[joint], rig.positions[child]) > least;
-            };
-            if (std::none_of(rig.children[joint].begin(), rig.children[joint].end(), goesOn)) continue;
-            rename(joint, limb.end, limb.middle);
-            if (!middleAbove) continue;
-            rename(parent, limb.middle, limb.upper);
-            if (top != kNoJoint && rig.names[top].parts[Part::clavicle] >= kMaybe && limb.end == Part::hand)
-                rename(top, Part::upperArm, Part::clavicle);
-        }
-    }
 }
 
 // An elbow that moves nothing, beside an arm that goes on in skin, is what the elbow points at.

@@ -35,6 +35,10 @@ inline constexpr int kRoleCount = 22;
 
 enum class Side { center, left, right };
 
+[[nodiscard]] constexpr Side otherSide(Side side) {
+    return side == Side::left ? Side::right : side == Side::right ? Side::left : Side::center;
+}
+
 [[nodiscard]] constexpr Role roleAt(int index) {
     return static_cast<Role>(index);
 }

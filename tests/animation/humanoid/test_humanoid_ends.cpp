@@ -48,6 +48,31 @@ TEST_CASE("bones that are called by the joint at their end are the parts that th
     CHECK(nameOf(Role::rightFoot) == "Foot.r");
 }
 
+TEST_CASE("a long hand beyond the wrist shifts no names where the shoulder is the arm's own joint", "[named]") {
+    PlacedJoints rig;
+    const int hips = rig.add("Joint_Hips", -1, {0, 0.8F, 0});
+    const int chest = rig.add("Joint_Chest", rig.add("Joint_Spine", hips, {0, 0.95F, 0}), {0, 1.1F, 0});
+    rig.add("Joint_Head", rig.add("Joint_Neck", chest, {0, 1.3F, 0}), {0, 1.4F, 0});
+    for (const int side : {0, 1}) {
+        const std::string end = side == 0 ? "_L" : "_R";
+        const int shoulder = rig.add("Joint_Shoulder" + end, chest, onSide({0.2F, 1.25F, 0}, side));
+        const int elbow = rig.add("Joint_Elbow" + end, shoulder, onSide({0.4F, 1.25F, -0.01F}, side));
+        const int wrist = rig.add("Joint_Wrist" + end, elbow, onSide({0.6F, 1.25F, 0}, side));
+        rig.add("Joint_Hand" + end, wrist, onSide({0.77F, 1.25F, 0}, side));
+        const int hip = rig.add("Joint_Hip" + end, hips, onSide({0.1F, 0.75F, 0}, side));
+        const int knee = rig.add("Joint_Knee" + end, hip, onSide({0.1F, 0.45F, 0.01F}, side));
+        const int ankle = rig.add("Joint_Ankle" + end, knee, onSide({0.1F, 0.1F, 0}, side));
+        rig.add("Joint_Foot" + end, ankle, onSide({0.1F, 0.02F, 0.15F}, side));
+    }
+    const HumanoidMap map = rig.map(true);
+    REQUIRE(map.humanoid);
+    CHECK(rig.nameOf(map, Role::leftUpperArm) == "Joint_Shoulder_L");
+    CHECK(rig.nameOf(map, Role::leftLowerArm) == "Joint_Elbow_L");
+    CHECK(rig.nameOf(map, Role::rightHand) == "Joint_Wrist_R");
+    CHECK(rig.nameOf(map, Role::rightUpperLeg) == "Joint_Hip_R");
+    CHECK(rig.nameOf(map, Role::rightFoot) == "Joint_Ankle_R");
+}
+
 TEST_CASE("a wrist in the middle of a forearm shifts no names where all parts have theirs", "[named]") {
     PlacedJoints rig;
     const int hips = rig.add("hips", -1, {0, 0.78F, 0});
