@@ -85,12 +85,21 @@ class Imaginer {
         return false;
     }
 
+    // A hand or foot that hangs on the trunk: what a robe leaves to be seen of a limb.
+    [[nodiscard]] bool isEndOnTrunk(int joint, Part end) const {
+        const int parent = rig_.parents[joint];
+        if (parent == kNoJoint || !rig_.children[joint].empty() || rig_.names[parent].side != Side::center)
+            return false;
+        const PartScores& parts = rig_.names[joint].parts;
+        return rig_.names[joint].side != Side::center && parts[end] >= kTellsSurely;
+    }
+
     // No joint that moves skin speaks of such a limb, on either side or none.
     [[nodiscard]] bool isAbsent(const std::array<Part, 3>& limb) const {
         for (int joint = 0; joint < rig_.count(); ++joint) {
             const bool isHips = rig_.names[joint].parts[Part::hips] >= kTellsTrunkEnd;  // "hip" may be a thigh's
             if (!rig_.carriesSkin(joint) || (isHips && rig_.names[joint].side == Side::center)) continue;
-            if (joint == crossed_) continue;
+            if (joint == crossed_ || isEndOnTrunk(joint, limb[2])) continue;
             for (const Part part : limb) {
                 if (rig_.names[joint].parts[part] > 0.0F) return false;
             }

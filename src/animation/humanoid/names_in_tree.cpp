@@ -431,6 +431,7 @@ void readHeldThings(RigFeatures& rig) {
 void readNamesInTree(RigFeatures& rig) {
     readEndsAsLimbs(rig);
     readNamesOfEnds(rig);
+    readNumberedEnds(rig);
     readCountedArms(rig);
     readForearmsAboveArms(rig);
     readShouldersAsArms(rig);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <utility>
 
 namespace lutka::animation {
 namespace {
@@ -31,7 +32,35 @@ bool startsLimb(const RigFeatures& rig, int top, int next, float length) {
     return false;
 }
 
+// Whether a joint on the same limb, other than `end`, is called a hand or foot.
+bool hasNamedEnd(const RigFeatures& rig, int middle, int end, Part part) {
+    for (int joint = 0; joint < rig.count(); ++joint) {
+        const NameEvidence& name = rig.names[joint];
+        if (joint == end || name.side != rig.names[middle].side || name.helper || name.parts[part] <= 0.0F) continue;
+        if (rig.isAncestorOrSelf(middle, joint)) return true;
+    }
+    return false;
+}
+
 }  // namespace
+
+void readNumberedEnds(RigFeatures& rig) {
+    constexpr float kAsLong = 0.7F;  // of the bone above: the half of a bone is shorter
+    for (int end = 0; end < rig.count(); ++end) {
+        const int middle = rig.parents[end];
+        const int upper = middle == kNoJoint ? kNoJoint : rig.parents[middle];
+        if (upper == kNoJoint || !rig.children[end].empty() || !rig.carriesSkin(end)) continue;
+        const NameEvidence& name = rig.names[end];
+        if (name.helper || name.side == Side::center || name.side != rig.names[middle].side) continue;
+        if (name.words != rig.names[middle].words || name.numbers == rig.names[middle].numbers) continue;
+        const float length = glm::distance(rig.positions[middle], rig.positions[end]);
+        if (length < kAsLong * glm::distance(rig.positions[upper], rig.positions[middle])) continue;
+        for (const auto& [part, of] : {std::pair{Part::hand, Part::lowerArm}, std::pair{Part::foot, Part::lowerLeg}}) {
+            if (rig.names[middle].parts[of] < kTellsSurely || hasNamedEnd(rig, middle, end, part)) continue;
+            std::swap(rig.names[end].parts[part], rig.names[end].parts[of]);
+        }
+    }
+}
 
 void readNamesOfEnds(RigFeatures& rig) {
     constexpr float kHalfway = 0.8F;  // of the way from the joint above

@@ -124,4 +124,45 @@ TEST_CASE("a neck in the middle but for rounding is no pair with a rope that han
     CHECK(map.jointOf(Role::head) == head);
 }
 
+TEST_CASE("a last bone with its parent's name and a number is the foot, and half a shin is none", "[named]") {
+    for (const bool isWhole : {true, false}) {
+        CAPTURE(isWhole);
+        PlacedJoints rig;
+        const int hips = rig.add("Hips", -1, {0, 0.95F, 0});
+        const int chest = rig.add("Chest", rig.add("Spine", hips, {0, 1.1F, 0}), {0, 1.25F, 0});
+        rig.add("Head", rig.add("Neck", chest, {0, 1.45F, 0}), {0, 1.55F, 0});
+        for (const int side : {0, 1}) {
+            const std::string end = side == 0 ? ".L" : ".R";
+            const int arm = rig.add("UpperArm" + end, chest, onSide({0.18F, 1.4F, 0}, side));
+            const int forearm = rig.add("LowerArm" + end, arm, onSide({0.45F, 1.4F, 0}, side));
+            rig.add("Hand" + end, forearm, onSide({0.7F, 1.4F, 0}, side));
+            const int thigh = rig.add("UpperLeg" + end, hips, onSide({0.1F, 0.9F, 0}, side));
+            const int shin = rig.add("LowerLeg" + end, thigh, onSide({0.1F, 0.5F, 0.01F}, side));
+            rig.add("LowerLeg" + end + ".001", shin, onSide({0.1F, isWhole ? 0.08F : 0.28F, 0}, side));
+        }
+        const HumanoidMap map = rig.map(true);
+        REQUIRE(map.humanoid);
+        CHECK(rig.nameOf(map, Role::rightLowerLeg) == "LowerLeg.R");
+        CHECK(rig.nameOf(map, Role::leftFoot) == (isWhole ? "LowerLeg.L.001" : "none"));
+    }
+}
+
+TEST_CASE("feet below a robe, without legs, do not make a figure none", "[named]") {
+    PlacedJoints rig;
+    const int hips = rig.add("Hips", -1, {0, 0.95F, 0});
+    const int chest = rig.add("Chest", rig.add("Spine", hips, {0, 1.1F, 0}), {0, 1.25F, 0});
+    rig.add("Head", rig.add("Neck", chest, {0, 1.45F, 0}), {0, 1.55F, 0});
+    for (const int side : {0, 1}) {
+        const std::string end = side == 0 ? ".L" : ".R";
+        const int arm = rig.add("UpperArm" + end, chest, onSide({0.18F, 1.4F, 0}, side));
+        rig.add("Hand" + end, rig.add("LowerArm" + end, arm, onSide({0.45F, 1.4F, 0}, side)),
+                onSide({0.7F, 1.4F, 0}, side));
+        rig.add("Foot" + end, hips, onSide({0.1F, 0.08F, 0}, side));
+    }
+    const HumanoidMap map = rig.map(true);
+    REQUIRE(map.humanoid);
+    CHECK(rig.nameOf(map, Role::leftHand) == "Hand.L");
+    CHECK_FALSE(map[Role::leftUpperLeg]);
+}
+
 }  // namespace lutka::test
