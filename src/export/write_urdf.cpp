@@ -81,8 +81,13 @@ class UrdfWriter {
                 fmt::format("{}: a hull can't be written into the file; it is the {} of the same moments",
                             bodyName(profile_, index), box ? "box" : "capsule"));
         });
+        // URDF has no friction of contacts. Bullet reads this one, and multiplies both sides'.
+        text_.line("<contact><lateral_friction value=\"{}\"/></contact>", numberText(physics::kBodyFriction));
         text_.outdent();
         text_.line("</link>");
+        // Gazebo's extension: it takes the less of both.
+        text_.line("<gazebo reference=\"{}\"><mu1>{}</mu1><mu2>{}</mu2></gazebo>", bodyName(profile_, index),
+                   numberText(kContactFriction), numberText(kContactFriction));
     }
 
     void inertial(const RigidTransform& origin, float massKg, const vec3& moments) {

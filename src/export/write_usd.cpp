@@ -24,11 +24,13 @@ class UsdWriter {
         text_.line("    upAxis = \"Y\"");
         text_.line(")");
         text_.blank();
-        begin("def Xform \"Ragdoll\"");
+        begin("def Xform \"Ragdoll\"", "\"MaterialBindingAPI\"");
+        text_.line("rel material:binding:physics = </Ragdoll/contact_material>");  // all shapes below have it
         for (std::size_t i = 0; i < profile_.bodies.size(); ++i)
             body(static_cast<int>(i));
         for (const ConstraintProfile& constraint : profile_.constraints)
             joint(constraint);
+        material();
         end();
         return {
             text_.take(),
@@ -73,6 +75,16 @@ class UsdWriter {
         visitShapes(b.shape, [&](const PrimitiveShape& s, const RigidTransform& bodyFromShape) {
             shape(s, ++count, bodyFromShape);
         });
+        end();
+    }
+
+    // How two materials combine is PhysX's own schema: UsdPhysics says nothing of it.
+    void material() {
+        begin("def Material \"contact_material\"", "\"PhysicsMaterialAPI\", \"PhysxMaterialAPI\"");
+        text_.line("float physics:staticFriction = {}", numberText(physics::kBodyFriction));
+        text_.line("float physics:dynamicFriction = {}", numberText(physics::kBodyFriction));
+        text_.line("float physics:restitution = 0");
+        text_.line("uniform token physxMaterial:frictionCombineMode = \"multiply\"");
         end();
     }
 

@@ -130,6 +130,17 @@ TEST_CASE("Blender: a table of bodies and one of joints, ranges from the bind po
     CHECK(std::strtof(numbers.c_str() + numbers.rfind(',') + 1, nullptr) == Approx(height).margin(1e-5));
 }
 
+TEST_CASE("URDF and USD: bodies have the friction of contacts that engines combine to ours") {
+    const DollSource doll;
+    const std::string urdf = exportedAs(ExportFormat::urdf, doll).bytes;
+    CHECK(occurrences(urdf, "<lateral_friction value=\"0.5\"/>") == 16);
+    CHECK(occurrences(urdf, "<mu1>0.4</mu1><mu2>0.4</mu2>") == 16);
+    const std::string usd = exportedAs(ExportFormat::usd, doll).bytes;
+    CHECK_THAT(usd, Catch::Contains("rel material:binding:physics = </Ragdoll/contact_material>"));
+    CHECK(numberAfter(usd, "def Material \"contact_material\"", "physics:dynamicFriction = ") == Approx(0.5F));
+    CHECK_THAT(usd, Catch::Contains("frictionCombineMode = \"multiply\""));
+}
+
 TEST_CASE("Bullet and USD: every body, joint and pair is there, in their units") {
     physics::RagdollProfile profile = makeDoll();
     profile.filteredPairs = {{0, 2}, {1, 4}};
