@@ -23,7 +23,10 @@ const degrees = (radians) => (radians * 180) / Math.PI;
 
 checks.that(fieldsOf('/').defaultPrim === 'Ragdoll' && fieldsOf('/').upAxis === 'Y' && fieldsOf('/').metersPerUnit === 1, 'stage');
 const children = fieldsOf('/Ragdoll').primChildren ?? [];
-checks.that(children.length === profile.bodies.length + profile.constraints.length, `${children.length} prims`);
+checks.that(children.length === profile.bodies.length + profile.constraints.length + 1, `${children.length} prims`);
+const material = target('/Ragdoll', 'material:binding:physics');
+checks.that(schemas(material).includes('PhysicsMaterialAPI'), 'the material of all shapes');
+checks.near(value(material, 'physics:dynamicFriction'), 0.5, 1e-6, 'friction of contacts');
 
 for (const body of profile.bodies) {
   const prim = pathOf(body.name);
