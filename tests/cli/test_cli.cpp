@@ -2,7 +2,9 @@
 #include <csignal>
 
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
+#include <string>
 
 #include "support/catch.hpp"
 #include "support/command.hpp"
@@ -245,6 +247,18 @@ TEST_CASE("bench prints our time beside stock Bullet's, with the quality of both
         CHECK(one["stockMsPerStep"]["p50"].get<double>() > 0);
         CHECK(one["quality"].contains("jointSeparationM"));
         CHECK(one["stockQuality"].contains("jointSeparationM"));
+    }
+}
+
+TEST_CASE("build tells limits from the bind pose: a knee bends one way, and both knees alike") {
+    const CommandResult result = lutkaCommand("build " + kMannequinArgument);
+    REQUIRE(result.code == 0);
+    for (const char* knee : {"leftLowerLeg ", "rightLowerLeg "}) {
+        std::smatch range;
+        const std::string line = result.out.substr(result.out.find(knee));
+        REQUIRE(std::regex_search(line, range, std::regex("hinge (-?[0-9]+)\\.\\.([0-9]+) deg")));
+        CHECK(std::stoi(range[1]) >= -25);
+        CHECK(std::stoi(range[2]) >= 110);
     }
 }
 

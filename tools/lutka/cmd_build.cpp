@@ -11,6 +11,7 @@
 #include "options.hpp"
 #include "outputs.hpp"
 #include "physics/fit/limits_from_clips.hpp"
+#include "physics/profile/joint_range.hpp"
 #include "physics/profile/profile_io.hpp"
 
 namespace lutka::cli {
@@ -35,9 +36,9 @@ std::string coneText(const physics::ConeTwistLimits& cone) {
                        degrees(cone.twist));
 }
 
-// Before, what the clips do, and after: in degrees.
+// Before, what the clips do, and after: in degrees from the middle of the range, as the profile has them.
 void printChanges(const std::vector<physics::ClipLimitChange>& changes) {
-    tell("{:<15} {:<22} {:<22} {:<22}\n", "LIMITS (deg)", "ANATOMY", "CLIPS", "TAKEN");
+    tell("{:<15} {:<22} {:<22} {:<22}\n", "DEG FROM MIDDLE", "ANATOMY", "CLIPS", "TAKEN");
     for (const physics::ClipLimitChange& change : changes) {
         const bool hinge = change.kind == physics::ConstraintProfile::Kind::hinge;
         tell("{:<15} {:<22} {:<22} {:<22}\n", change.body,
@@ -62,19 +63,26 @@ std::string shapeText(const physics::PrimitiveShape& shape) {
                        shape.halfExtents.z * 2);
 }
 
-std::string limitText(const physics::ConstraintProfile& c) {
-    if (c.kind == physics::ConstraintProfile::Kind::hinge) {
-        return fmt::format("hinge {} deg", hingeText(c.hinge));
-    }
-    return fmt::format("cone {} deg", coneText(c.cone));
+std::string spanText(const physics::AngleSpan& span) {
+    return fmt::format("{:.0f}..{:.0f}", degrees(span.low), degrees(span.high));
 }
 
-void printTable(const physics::RagdollProfile& profile) {
-    tell("{:<15} {:<28} {:<26} {:>8}  {}\n", "BODY", "JOINT", "SHAPE (m)", "MASS", "LIMITS");
+// From the bind pose, as the editor tells it: the file has both sides of the middle of the range, which says nothing
+// to one who knows how far a knee bends.
+std::string limitText(const physics::ConstraintProfile& c, const physics::Rig& rig) {
+    const physics::JointRange range =
+        physics::jointRange(c, {rig.bindModelFromBody[c.parent], rig.bindModelFromBody[c.child]});
+    if (c.kind == physics::ConstraintProfile::Kind::hinge) return fmt::format("hinge {} deg", spanText(range.flexion));
+    return fmt::format("cone {} by {}, twist {} deg", spanText(range.flexion), spanText(range.side),
+                       spanText(range.twist));
+}
+
+void printTable(const physics::RagdollProfile& profile, const physics::Rig& rig) {
+    tell("{:<15} {:<28} {:<26} {:>8}  {}\n", "BODY", "JOINT", "SHAPE (m)", "MASS", "LIMITS FROM THE BIND POSE");
     for (std::size_t i = 0; i < profile.bodies.size(); ++i) {
         const physics::BodyProfile& body = profile.bodies[i];
         tell("{:<15} {:<28} {:<26} {:>5.2f} kg  {}\n", body.name, body.joint, shapeText(body.shape), body.massKg,
-             i == 0 ? "" : limitText(profile.constraints[i - 1]));
+             i == 0 ? "" : limitText(profile.constraints[i - 1], rig));
         for (const physics::AddedShape& added : body.shape.more)
             tell("{:<15} {:<28} {:<26}\n", "", "and", shapeText(added));
     }
@@ -99,7 +107,7 @@ void runBuild(const BuildCommandOptions& options) {
     if (options.json) {
         fmt::print("{}", physics::profileToJson(asset->profile));
     } else {
-        printTable(asset->profile);
+        printTable(asset->profile, asset->rig);
         if (!changes.empty()) printChanges(changes);
     }
 }
