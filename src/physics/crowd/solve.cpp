@@ -97,7 +97,6 @@ class JobSubstep {
             [&](PairPart& part) { kernels.solvePairs(part.view, params_); },
             [&](PairPart& part) { kernels.carryPairs(part.view); });
         forViews([&](const BatchView& view) { kernels.solve(view, params_, 1); });
-        int answered = 0;
         for (int i = 0; i < answers(); ++i) {
             // The contacts that the dolls' answer has left wrong, and their dolls' answer to that.
             forParts(
@@ -106,10 +105,9 @@ class JobSubstep {
             const auto isRight = [](const PairPart& part) { return part.view.changedCount == 0; };
             if (std::all_of(job_.parts.begin(), job_.parts.end(), isRight)) break;
             forViews([&](const BatchView& view) { kernels.solve(view, params_, 0); });
-            ++answered;
         }
         holdOutrun();
-        if (answered > 0) forViews([&](const BatchView& view) { kernels.limitEnergy(view); });
+        forViews([&](const BatchView& view) { kernels.limitEnergy(view); });
         for (const Batch* batch : job_.batches)
             job_.motorWork += workOfMotors(*batch);
         for (const Batch* batch : job_.batches)
