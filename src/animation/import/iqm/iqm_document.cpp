@@ -285,7 +285,11 @@ class Parser {
         if (header_.frames.count > kMaxFrameNumbers / std::max<std::size_t>(numbers * header_.joints.count, 1))
             return fail(fmt::format("has {} frames of {} joints, more than can be read", header_.frames.count,
                                     header_.joints.count));
-        if (!holds(header_.frames, std::max<std::size_t>(header_.frameChannels, 1) * 2, "frames")) return false;
+        // Where no channel moves, all frames are the poses' offsets, and the file holds none.
+        if (header_.frameChannels == 0)
+            header_.frames.count = 1;
+        else if (!holds(header_.frames, header_.frameChannels * 2, "frames"))
+            return false;
         std::size_t channels = 0;
         for (std::size_t i = 0; i < header_.poses.count; ++i)
             channels += static_cast<std::size_t>(__builtin_popcount(maskAt(i)));
@@ -325,9 +329,13 @@ class Parser {
 
     bool readRanges() {
         bool unknownRate = false;
+        std::size_t played = 0;
+        const std::size_t mostPlayed =
+            kMaxFrameNumbers / std::max<std::size_t>(placementNumbers() * header_.joints.count, 1);
         for (std::size_t i = 0; i < header_.animations.count; ++i) {
             const std::size_t at = header_.animations.offset + i * kAnimationBytes;
             Animation animation{text(number(at)), number(at + 4), number(at + 8), real(at + 12)};
+            if (header_.frameChannels == 0) animation.firstFrame = 0;
             if (animation.firstFrame >= header_.frames.count) {
                 document_.warnings.push_back(
                     fmt::format("animation \"{}\" was left out: it begins at frame {}, and the file has {}",
@@ -339,6 +347,9 @@ class Parser {
                 animation.frameRate = kAnyRate;
                 unknownRate = true;
             }
+            // Each becomes a clip with keys of its own.
+            played += animation.frameCount;
+            if (played > mostPlayed) return fail("its animations overlap and have more frames than can be read");
             if (animation.frameCount > 0) document_.animations.push_back(std::move(animation));
         }
         if (unknownRate)

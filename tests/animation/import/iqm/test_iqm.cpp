@@ -41,6 +41,9 @@ struct IqmFile {
     float frameRate = 2.0F;
     std::uint32_t animationFrames = 2;
     std::uint32_t poses = 2;
+    bool stands = false;  // no channel moves, and there are no frames
+    std::uint32_t animationCount = 1;
+    std::uint32_t frameCount = 2;
 
     [[nodiscard]] std::string bytes() const {
         std::string texts(1, '\0');
@@ -63,9 +66,12 @@ struct IqmFile {
         std::string meshes;
         putAll<std::uint32_t>(meshes, {named("body"), named(material), 0, 3, 0, 1});
         std::string animations;
-        putAll<std::uint32_t>(animations, {named("stretch"), 0, animationFrames});
-        put(animations, frameRate);
-        put<std::uint32_t>(animations, 1);
+        const std::uint32_t animationName = named("stretch");
+        for (std::uint32_t i = 0; i < animationCount; ++i) {
+            putAll<std::uint32_t>(animations, {animationName, 0, animationFrames});
+            put(animations, frameRate);
+            put<std::uint32_t>(animations, 1);
+        }
         std::string positions;
         putAll<float>(positions, {0, 0, 0, -1, 0, 0, 0, 0, 2});
         std::string indices;
@@ -80,12 +86,20 @@ struct IqmFile {
         putAll<std::uint32_t>(triangles, {0, 1, 2});
         std::string poseBytes;
         for (std::uint32_t i = 0; i < poses; ++i) {
-            const bool moves = i == 1;
+            const bool moves = i == 1 && !stands;
             put<std::int32_t>(poseBytes, static_cast<std::int32_t>(i) - 1);
             put<std::uint32_t>(poseBytes, moves ? 2U : 0U);  // y of the translation
-            std::vector<float> offsets = {
-                0, moves ? 1.0F : 0.0F, 0, 0, 0, moves ? 0.0F : sign * kHalfTurn, moves ? sign : sign * kHalfTurn, 1, 1,
-                1};
+            const bool isBone = i == 1;
+            std::vector<float> offsets = {0,
+                                          isBone ? 1.0F : 0.0F,
+                                          0,
+                                          0,
+                                          0,
+                                          isBone ? 0.0F : sign * kHalfTurn,
+                                          isBone ? sign : sign * kHalfTurn,
+                                          1,
+                                          1,
+                                          1};
             std::vector<float> scales = {0, moves ? 2.0F / 65535.0F : 0.0F, 0, 0, 0, 0, 0, 0, 0, 0};
             if (version == 1) {
                 offsets.erase(offsets.begin() + 6);
@@ -95,7 +109,7 @@ struct IqmFile {
             putAll(poseBytes, scales);
         }
         std::string frames;
-        putAll<std::uint16_t>(frames, {0, 65535});
+        if (!stands) putAll<std::uint16_t>(frames, {0, 65535});
 
         constexpr std::uint32_t kHeader = 16 + 27 * 4;
         std::string body;
@@ -131,10 +145,10 @@ struct IqmFile {
                                     jointsAt,
                                     poses,
                                     posesAt,
-                                    1,
+                                    animationCount,
                                     animationsAt,
-                                    2,
-                                    1,
+                                    frameCount,
+                                    stands ? 0U : 1U,
                                     framesAt,
                                     0,
                                     0,
@@ -222,6 +236,28 @@ TEST_CASE("animations of other joints than an IQM file's own, and without a rate
     CHECK(document.value().animations[0].frameCount == 2);
     CHECK(document.value().animations[0].frameRate == 30.0);
     CHECK(document.value().warnings.size() == 1);
+}
+
+TEST_CASE("an IQM animation in which nothing moves is one frame, though the file holds none") {
+    IqmFile made;
+    made.stands = true;
+    made.frameCount = 2'000'000;
+    made.animationFrames = 2'000'000;
+    const Result<iqm::IqmDocument> document = parsed(made.bytes());
+    REQUIRE(document.ok());
+    CHECK(document.value().frames.size() == 2);
+    REQUIRE(document.value().animations.size() == 1);
+    CHECK(document.value().animations[0].frameCount == 1);
+    CHECK(document.value().frames[1].translation.y == Approx(1.0));
+}
+
+// Each would be a clip of its own: gigabytes from a file of 20 bytes a clip.
+TEST_CASE("IQM animations that share all frames of a file are refused beyond what can be read") {
+    IqmFile made;
+    made.animationCount = 2'000'000;
+    const Result<iqm::IqmDocument> document = parsed(made.bytes());
+    REQUIRE(!document.ok());
+    CHECK(document.error().message.find("overlap") != std::string::npos);
 }
 
 TEST_CASE("a damaged IQM file is refused, wherever it is cut off") {
