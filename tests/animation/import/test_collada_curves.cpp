@@ -124,6 +124,8 @@ TEST_CASE("a Collada channel may name the angle of a rotation by its place or in
     for (const char* kept : {"A/r.ANGLE", "A/m(3)", "A/m(3)(0)", "A/r"})
         CHECK(plain(kept) == kept);
     CHECK(plain("A/rotate.x") != "A/rotate.X");  // a dot may belong to the name
+    CHECK(plain("A/rotate.x(3)") == plain("A/rotate.x.ANGLE"));
+    CHECK(plain("A/rotate.x(3)").find(".ANGLE") != std::string::npos);
 }
 
 TEST_CASE("tangents of a Collada spline that are values alone stand at thirds of the way") {

@@ -58,7 +58,9 @@ std::optional<TargetPlace> placeOfTarget(std::string_view target, const ColladaN
     const ColladaNode& node = nodes.all()[at->first];
     std::string_view sid = at->second;
     TargetPlace place{at->first, stepCalled(node, sid), {}};
-    const std::size_t member = std::min(sid.rfind('.'), sid.find('('));
+    // A dot before the bracket belongs to the name: "rotate.x(3)".
+    const std::size_t bracket = sid.find('(');
+    const std::size_t member = bracket != std::string_view::npos ? bracket : sid.rfind('.');
     if (place.transform == nullptr && member != std::string_view::npos) {
         place.member = sid.substr(member);
         place.transform = stepCalled(node, sid.substr(0, member));
