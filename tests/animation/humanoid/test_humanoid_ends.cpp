@@ -13,6 +13,20 @@ namespace {
 using animation::HumanoidMap;
 using animation::Role;
 
+// A trunk with arms of three joints; legs are the test's own. Returns the hips.
+int addUpperBody(PlacedJoints& rig) {
+    const int hips = rig.add("Hips", -1, {0, 0.95F, 0});
+    const int chest = rig.add("Chest", rig.add("Spine", hips, {0, 1.1F, 0}), {0, 1.25F, 0});
+    rig.add("Head", rig.add("Neck", chest, {0, 1.45F, 0}), {0, 1.55F, 0});
+    for (const int side : {0, 1}) {
+        const std::string end = side == 0 ? ".L" : ".R";
+        const int arm = rig.add("UpperArm" + end, chest, onSide({0.18F, 1.4F, 0}, side));
+        const int forearm = rig.add("LowerArm" + end, arm, onSide({0.45F, 1.4F, 0}, side));
+        rig.add("Hand" + end, forearm, onSide({0.7F, 1.4F, 0}, side));
+    }
+    return hips;
+}
+
 }  // namespace
 
 TEST_CASE("bones that are called by the joint at their end are the parts that they are", "[named]") {
@@ -128,14 +142,9 @@ TEST_CASE("a last bone with its parent's name and a number is the foot, and half
     for (const bool isWhole : {true, false}) {
         CAPTURE(isWhole);
         PlacedJoints rig;
-        const int hips = rig.add("Hips", -1, {0, 0.95F, 0});
-        const int chest = rig.add("Chest", rig.add("Spine", hips, {0, 1.1F, 0}), {0, 1.25F, 0});
-        rig.add("Head", rig.add("Neck", chest, {0, 1.45F, 0}), {0, 1.55F, 0});
+        const int hips = addUpperBody(rig);
         for (const int side : {0, 1}) {
             const std::string end = side == 0 ? ".L" : ".R";
-            const int arm = rig.add("UpperArm" + end, chest, onSide({0.18F, 1.4F, 0}, side));
-            const int forearm = rig.add("LowerArm" + end, arm, onSide({0.45F, 1.4F, 0}, side));
-            rig.add("Hand" + end, forearm, onSide({0.7F, 1.4F, 0}, side));
             const int thigh = rig.add("UpperLeg" + end, hips, onSide({0.1F, 0.9F, 0}, side));
             const int shin = rig.add("LowerLeg" + end, thigh, onSide({0.1F, 0.5F, 0.01F}, side));
             rig.add("LowerLeg" + end + ".001", shin, onSide({0.1F, isWhole ? 0.08F : 0.28F, 0}, side));
@@ -149,16 +158,9 @@ TEST_CASE("a last bone with its parent's name and a number is the foot, and half
 
 TEST_CASE("feet below a robe, without legs, do not make a figure none", "[named]") {
     PlacedJoints rig;
-    const int hips = rig.add("Hips", -1, {0, 0.95F, 0});
-    const int chest = rig.add("Chest", rig.add("Spine", hips, {0, 1.1F, 0}), {0, 1.25F, 0});
-    rig.add("Head", rig.add("Neck", chest, {0, 1.45F, 0}), {0, 1.55F, 0});
-    for (const int side : {0, 1}) {
-        const std::string end = side == 0 ? ".L" : ".R";
-        const int arm = rig.add("UpperArm" + end, chest, onSide({0.18F, 1.4F, 0}, side));
-        rig.add("Hand" + end, rig.add("LowerArm" + end, arm, onSide({0.45F, 1.4F, 0}, side)),
-                onSide({0.7F, 1.4F, 0}, side));
-        rig.add("Foot" + end, hips, onSide({0.1F, 0.08F, 0}, side));
-    }
+    const int hips = addUpperBody(rig);
+    for (const int side : {0, 1})
+        rig.add(side == 0 ? "Foot.L" : "Foot.R", hips, onSide({0.1F, 0.08F, 0}, side));
     const HumanoidMap map = rig.map(true);
     REQUIRE(map.humanoid);
     CHECK(rig.nameOf(map, Role::leftHand) == "Hand.L");
